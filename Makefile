@@ -1,0 +1,60 @@
+# Each target sets up .venv first where it needs it. `make CORES=8 figures` uses more cores, PYTHON=... another Python.
+PYTHON ?= python3
+CORES ?= 2
+VENV := .venv/bin
+SNAKEMAKE := $(VENV)/snakemake --cores $(CORES)
+PYTEST := SLURM_CONF=/dev/null MPLBACKEND=Agg $(VENV)/python -m pytest
+
+.PHONY: help figures preview test test-full bench gallery lint lock clean
+
+help:
+	@echo 'make figures    all figures at full size, into results/'
+	@echo 'make preview    the same figures, small and in minutes, into results/preview/'
+	@echo 'make test       all tests but the long ones'
+	@echo 'make test-full  all tests'
+	@echo 'make bench      speed of the engine, into results/bench.csv'
+	@echo 'make gallery    copy final figures and tables into results/gallery/'
+	@echo 'make lint       style of the code'
+	@echo 'make lock       pin what pyproject.toml asks for (without requirements.lock: in its newest version)'
+	@echo 'make clean      remove caches; results and .venv stay'
+
+figures: .venv/.installed
+	$(SNAKEMAKE)
+
+preview: .venv/.installed
+	$(SNAKEMAKE) --configfile config/config.yaml config/reduced.yaml
+
+test: .venv/.installed
+	$(PYTEST)
+
+test-full: .venv/.installed
+	$(PYTEST) -m ""
+
+bench: .venv/.installed
+	$(VENV)/python benchmarks/speed.py
+
+gallery: .venv/.installed
+	$(VENV)/python -m granugas.storage.gallery results
+
+lint: .venv/.installed
+	$(VENV)/ruff check .
+	$(VENV)/ruff format --check .
+
+lock:
+	@$(PYTHON) -m venv .lock
+	@.lock/bin/python -m pip install --quiet uv
+	.lock/bin/uv pip compile --quiet --universal --generate-hashes --no-emit-index-url --python-version 3.11 --all-extras pyproject.toml -o requirements.lock
+	@rm -rf .lock
+
+clean:
+	rm -rf .lock .pytest_cache .ruff_cache .hypothesis .coverage htmlcov build dist
+	find . -name __pycache__ -not -path './.venv/*' -prune -exec rm -rf {} +
+
+.venv/.installed: requirements.lock pyproject.toml
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
+		{ echo 'Python 3.11 or newer is needed, and $(PYTHON) is not: make PYTHON=python3.12 ...'; exit 1; }
+	@echo 'Setting up .venv: about a minute.'
+	@$(PYTHON) -m venv .venv
+	@$(VENV)/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements.lock
+	@$(VENV)/python -m pip install --quiet --disable-pip-version-check --no-deps -e .
+	@touch $@

@@ -1,0 +1,35 @@
+# Equilibration -> dissipative runs over grids -> cluster analysis -> figures.
+# The configuration is described in config/README.md, the house in ARCHITECTURE.md.
+import os
+
+from snakemake.utils import min_version
+
+min_version("9.0")
+
+
+configfile: "config/config.yaml" if os.path.exists("config/config.yaml") else f"{workflow.basedir}/config/config.yaml"
+
+
+include: "workflow/rules/common.smk"
+
+
+rule all:
+    input:
+        [f"{OUTPUT}/figures/{name}.{kind}" for name in STUDIES.wanted for kind in ("png", "pdf")],
+
+
+include: "workflow/rules/simulate.smk"
+include: "workflow/rules/analyse.smk"
+include: "workflow/rules/figures.smk"
+
+
+onstart:
+    begin(planned(workflow.dag))
+
+
+onsuccess:
+    print(f"Done: the datasets are in {OUTPUT}/studies, the figures in {OUTPUT}/figures.")
+
+
+onerror:
+    print(failures(planned(workflow.dag), STARTED, finals=["figure", "pool", "check"]))

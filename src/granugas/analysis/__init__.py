@@ -1,0 +1,1 @@
+"""What runs mean: theory, observables, clusters and statistics. Arrays in, arrays out."""

@@ -1,0 +1,53 @@
+"""Observables of one instant from the arrays of the particles; all masses are equal."""
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Numbers = NDArray[np.float64]
+
+
+def kinetic_energy(velocity: Numbers) -> Numbers:
+    """(dim,) kinetic energies E_x/m, E_y/m of the motion along each axis in (m/s)^2 from velocities (n, dim) in m/s."""
+    return 0.5 * np.einsum("ia,ia->a", velocity, velocity)
+
+
+def velocity_kurtosis(velocity: Numbers) -> Numbers:
+    """(dim,) <v^4> / <v^2>^2 of the velocity components: 3 if they are Maxwellian, 9/5 if uniform.
+
+    The mean velocity must have been removed.
+    """
+    squares = velocity * velocity
+    return np.mean(squares * squares, axis=0) / np.mean(squares, axis=0) ** 2
+
+
+def anisotropy(velocity: Numbers) -> float:
+    """(K_x - K_y) / K (B Fig. 1d), between -1 and 1 and 0 if no direction is preferred, from velocities (n, 2)."""
+    along_x, along_y = kinetic_energy(velocity)
+    return float((along_x - along_y) / (along_x + along_y))
+
+
+def elastic_particle_fraction(last_collision_time: Numbers, time: float, contact_time: ArrayLike) -> Numbers:
+    """n_e = N_e/N, the share of particles that had a collision no longer than t_c ago (A section 5.4).
+
+    Args:
+        last_collision_time: (n,) in s, -inf for a particle that never collided.
+        time: now, in s.
+        contact_time: t_c in s, one or several; the result has its shape. With t_c = 0 nobody is elastic.
+    """
+    return _elastic(last_collision_time, time, contact_time).mean(axis=-1)
+
+
+def elastic_energy_fraction(
+    velocity: Numbers, last_collision_time: Numbers, time: float, contact_time: ArrayLike
+) -> Numbers:
+    """e_e = E_e/E, the share of the kinetic energy that elastic particles carry (A section 5.4).
+
+    Arguments as in `elastic_particle_fraction`, velocities (n, dim) in m/s.
+    """
+    energy = np.einsum("ia,ia->i", velocity, velocity)
+    return _elastic(last_collision_time, time, contact_time) @ energy / energy.sum()
+
+
+def _elastic(last_collision_time: Numbers, time: float, contact_time: ArrayLike) -> NDArray[np.bool_]:
+    t_c = np.asarray(contact_time, dtype=float)[..., np.newaxis]
+    return (time - last_collision_time <= t_c) & (t_c > 0)

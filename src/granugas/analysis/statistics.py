@@ -1,0 +1,116 @@
+"""Errors from the spread over realizations; never over times of one run, which are correlated."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Numbers = NDArray[np.float64]
+
+CONFIDENCE = 0.95
+"""Level of every interval."""
+
+STUDENT_T = (12.7062, 4.3027, 3.1824, 2.7764, 2.5706, 2.4469, 2.3646, 2.3060, 2.2622)
+"""Two-sided 95 % points of Student's t for 1, 2 ... 9 degrees of freedom: up to ten realizations."""
+
+RESAMPLES = 4000
+"""Bootstrap samples; the ends of an interval are then stable to some per cent of its width."""
+
+
+@dataclass(frozen=True)
+class PowerLaw:
+    """y = amplitude * x^exponent in a window.
+
+    Attributes:
+        exponent: mean of the exponents of the realizations.
+        interval: its 95 % confidence interval (low, high); NaN for a single realization, whose times are correlated and
+            so tell nothing about the error.
+        amplitude: of the geometric mean of the realizations.
+        window: (low, high) of x.
+        exponents: (n,) of the realizations, fitted one by one.
+    """
+
+    exponent: float
+    interval: tuple[float, float]
+    amplitude: float
+    window: tuple[float, float]
+    exponents: Numbers
+
+    def __call__(self, x: ArrayLike) -> Numbers:
+        """Y at x."""
+        return self.amplitude * np.asarray(x, dtype=float) ** self.exponent
+
+    @property
+    def half_width(self) -> float:
+        """Half the width of the interval."""
+        return (self.interval[1] - self.interval[0]) / 2
+
+
+def mean_and_error(values: ArrayLike) -> tuple[Numbers, Numbers]:
+    """Mean and standard error over realizations.
+
+    Args:
+        values: (n, ...), realizations first; realizations of NaN (runs that have ended) are left out.
+
+    Returns:
+        mean and error of shape (...); where there is one realization the error is NaN, where there is none both are.
+    """
+    values = np.asarray(values, dtype=float)
+    there = ~np.isnan(values)
+    n = there.sum(axis=0)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        mean = np.where(there, values, 0).sum(axis=0) / n
+        variance = (np.where(there, values - mean, 0) ** 2).sum(axis=0) / (n - 1)
+        return mean, np.sqrt(variance / n)
+
+
+def bootstrap_interval(
+    values: ArrayLike, statistic: Callable[[Numbers], float] = np.mean, seed: int = 1998
+) -> tuple[float, float]:
+    """95 % percentile interval of a statistic, from realizations drawn again with replacement.
+
+    Args:
+        values: (n, ...), realizations first. With ten of them or fewer the interval is too narrow.
+        statistic: of an array like values.
+        seed: of the draws.
+    """
+    values = np.asarray(values, dtype=float)
+    draws = np.random.default_rng(seed).integers(len(values), size=(RESAMPLES, len(values)))
+    low, high = np.quantile([statistic(values[draw]) for draw in draws], [(1 - CONFIDENCE) / 2, (1 + CONFIDENCE) / 2])
+    return float(low), float(high)
+
+
+def t_interval(values: ArrayLike) -> tuple[float, float]:
+    """95 % interval of the mean of two to ten independent, normal values (n,); NaN for one."""
+    values = np.asarray(values, dtype=float)
+    if len(values) < 2:
+        return np.nan, np.nan
+    half_width = STUDENT_T[len(values) - 2] * values.std(ddof=1) / np.sqrt(len(values))
+    return float(values.mean() - half_width), float(values.mean() + half_width)
+
+
+def fit_power_law(x: ArrayLike, y: ArrayLike, window: tuple[float, float]) -> PowerLaw:
+    """Least squares of ln y against ln x in a window, for each realization by itself.
+
+    The interval comes from the spread of the realizations' exponents: Student's t for two to ten of them, honest but
+    wide if they are two; a bootstrap over realizations for more.
+
+    Args:
+        x: (m,), ascending and positive.
+        y: (m,) or (n, m), realizations first; those that are NaN or not positive somewhere in the window are left out.
+        window: (low, high) of x, both inside.
+
+    Raises:
+        ValueError: fewer than three points in the window, or no realization that covers it.
+    """
+    x, y = np.asarray(x, dtype=float), np.atleast_2d(np.asarray(y, dtype=float))
+    inside = (x >= window[0]) & (x <= window[1])
+    if inside.sum() < 3:
+        raise ValueError(f"window = {window}: {inside.sum()} points in it, at least 3 are needed")
+    y = y[(y[:, inside] > 0).all(axis=1)][:, inside]
+    if not len(y):
+        raise ValueError(f"window = {window}: no realization has positive values throughout")
+    exponents, offsets = np.polyfit(np.log(x[inside]), np.log(y).T, 1)
+    interval = t_interval(exponents) if len(exponents) <= len(STUDENT_T) + 1 else bootstrap_interval(exponents)
+    return PowerLaw(float(exponents.mean()), interval, float(np.exp(offsets.mean())), tuple(window), exponents)

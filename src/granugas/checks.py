@@ -1,0 +1,89 @@
+"""What every dataset of a study obeys, whatever its parameters: conservation, counts that agree, nothing missing."""
+
+from collections.abc import Iterator
+
+import numpy as np
+import xarray as xr
+
+ROUNDING = 1e-12
+SHARES = ("elastic_collision_fraction", "elastic_particle_fraction", "elastic_energy_fraction")
+COUNTS = ("collisions_per_particle", "elastic_collisions_per_particle")
+ALWAYS = ("tau", "kinetic_energy", "kinetic_energy_x", "kinetic_energy_y", *COUNTS, *SHARES[1:])
+"""Variables with a value at every sample; those over an interval lack one at t = 0, and where nothing collides."""
+
+
+def findings(data: xr.Dataset) -> list[str]:
+    """Compare a pooled dataset with what must hold; an empty list is what one hopes for.
+
+    Each finding is one line: the variable, what is wrong, at how many places, and where it is worst.
+    """
+    return [*_complete(data), *_energy(data), *_momentum(data), *_counted(data), *_clusters(data)]
+
+
+def _complete(data: xr.Dataset) -> Iterator[str]:
+    """A value at every sample until a run's end, none after it."""
+    times = data["sampling_time"] if "sampling_time" in data else data["time"]
+    alive = times <= data["stop_time"] * (1 + ROUNDING)
+    for name in ALWAYS:
+        yield from _finding(name, "has no value", (data[name].isnull() & alive).astype(float))
+        yield from _finding(name, "has a value after the end of the run", (data[name].notnull() & ~alive).astype(float))
+
+
+def _energy(data: xr.Dataset) -> Iterator[str]:
+    energy = data["kinetic_energy"]
+    yield from _finding("kinetic_energy", "is not 1 at t = 0", abs(energy.isel(time=0) - 1) - ROUNDING)
+    shares = data["kinetic_energy_x"] + data["kinetic_energy_y"]
+    yield from _finding("kinetic_energy", "is not the sum of its shares", abs(energy - shares) - ROUNDING)
+    yield from _finding("kinetic_energy", "rises", energy.diff("time") - ROUNDING * 10)
+    elastic = _parameter(data, "restitution") == 1
+    lost = abs(energy - 1).where(elastic) - 1e-10
+    yield from _finding("kinetic_energy", "is not conserved at r = 1", lost)
+
+
+def _momentum(data: xr.Dataset) -> Iterator[str]:
+    if "velocity" in data:
+        momentum = abs(data["velocity"].sum("particle")) / _parameter(data, "n_particles")
+        limit = ROUNDING * _parameter(data, "velocity_half_width")
+        yield from _finding("velocity", "has a mean that is not zero", momentum - limit)
+
+
+def _counted(data: xr.Dataset) -> Iterator[str]:
+    for name in COUNTS:
+        yield from _finding(name, "falls", -data[name].diff("time"))
+        yield from _finding(name, "is not 0 at t = 0", data[name].isel(time=0))
+    yield from _finding(COUNTS[1], "is more than all collisions", data[COUNTS[1]] - data[COUNTS[0]] * (1 + ROUNDING))
+    for name in SHARES:
+        yield from _finding(name, "is outside of 0 to 1", abs(data[name] - 0.5) - 0.5 - ROUNDING)
+    counted = 2 * data["events"] / _parameter(data, "n_particles")
+    apart = abs(counted - data[COUNTS[0]].max("time")).where(data["stop_reason"] != "inelastic_collapse")
+    yield from _finding("events", "differ from collisions_per_particle", apart - 1e-9 * counted - ROUNDING)
+    times = data["sampling_time"] if "sampling_time" in data else data["time"]
+    in_interval = data[COUNTS[0]].diff("time")
+    apart = abs(data["collision_rate"] * times.diff("time") - in_interval) - 1e-9 * (1 + in_interval)
+    yield from _finding("collision_rate", "does not add up to collisions_per_particle", apart)
+
+
+def _clusters(data: xr.Dataset) -> Iterator[str]:
+    if "cluster_count" not in data:
+        return
+    n, count, largest = _parameter(data, "n_particles"), data["cluster_count"], data["largest_cluster_size"]
+    product = abs(count * data["mean_cluster_size"] - n) - 1e-9 * n
+    yield from _finding("mean_cluster_size", "times cluster_count is not N", product)
+    yield from _finding("cluster_count", "rises with the distance factor", count.diff("distance_factor"))
+    yield from _finding("largest_cluster_size", "falls with the distance factor", -largest.diff("distance_factor"))
+    yield from _finding("largest_cluster_size", "is more than N", largest - n)
+    binned = data["cluster_size_distribution"].sum("cluster_size", skipna=False)
+    yield from _finding("cluster_size_distribution", "does not add up to cluster_count", abs(binned - count) - ROUNDING)
+
+
+def _parameter(data: xr.Dataset, key: str) -> xr.DataArray:
+    """A grid key: a coordinate where the study varies it, else an attribute."""
+    return data[key] if key in data.variables else xr.DataArray(data.attrs[key])
+
+
+def _finding(name: str, what: str, excess: xr.DataArray) -> Iterator[str]:
+    """One line if something exceeds 0 anywhere, with the place where it does most."""
+    if excess.size and np.any(excess > 0):
+        worst = excess.isel(excess.argmax(...))
+        place = ", ".join(f"{key} = {worst[key].item()}" for key in worst.coords)
+        yield f"{name} {what} ({np.count_nonzero(excess > 0)} places, worst at {place})"

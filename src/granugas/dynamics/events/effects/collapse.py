@@ -1,0 +1,47 @@
+"""A watch that notices the inelastic collapse (A section 2.1): infinitely many collisions in finite time.
+
+On the way into a collapse both the time between collisions and the approach speed fall geometrically, so the distance that
+is left between two partners falls out of what double precision resolves after some tens of collisions. From there on the
+rounding, not the model, decides. A collision whose partners moved less than RESOLUTION towards each other since one of them
+collided last is such a collision; in a gas or a dense cluster that is as good as impossible, in a collapse there is no end
+of them.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from granugas.dynamics.events.composition import implements
+from granugas.dynamics.events.loop import witness
+from granugas.dynamics.events.memory import Record, Table
+
+RESOLUTION = 1.0e-13
+"""Unresolved distance (d)."""
+
+UNRESOLVED = 100
+"""Unresolved collisions that are called a collapse."""
+
+INVOLVED = np.dtype([("i", "i4"), ("j", "i4")])
+COUNT = np.dtype([("n", "i8")])
+
+
+class CollapseWatch(NamedTuple):
+    """The partners of the unresolved collisions so far."""
+
+    involved: Table
+    count: Record
+
+
+def collapse_watch() -> CollapseWatch:
+    """A watch that has seen nothing yet."""
+    return CollapseWatch(Table(np.zeros(UNRESOLVED, INVOLVED)), Record(np.zeros(1, COUNT)))
+
+
+@implements(witness, CollapseWatch)
+def _collapse_watch(watch, gas, i, j, now, since, u_n):
+    if -u_n * since >= RESOLUTION:
+        return False
+    k = watch.count.n
+    watch.involved.i[k], watch.involved.j[k] = i, j
+    watch.count.n = k + 1
+    return k + 1 == UNRESOLVED

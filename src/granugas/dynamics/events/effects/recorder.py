@@ -1,0 +1,33 @@
+"""A watch that writes down every collision."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from granugas.dynamics.events.composition import implements
+from granugas.dynamics.events.loop import witness
+from granugas.dynamics.events.memory import Record, Table
+
+SEEN = np.dtype([("time", "f8"), ("i", "i4"), ("j", "i4")])
+COUNT = np.dtype([("n", "i8")])
+
+
+class Recorder(NamedTuple):
+    """A table of SEEN collisions, i < j, with room for `size` of them; times from calendar.base."""
+
+    seen: Table
+    count: Record
+    size: int
+
+
+def recorder(size: int) -> Recorder:
+    """A recorder that ends the loop after `size` collisions."""
+    return Recorder(Table(np.zeros(size, SEEN)), Record(np.zeros(1, COUNT)), size)
+
+
+@implements(witness, Recorder)
+def _recorder(watch, gas, i, j, now, since, u_n):
+    k = watch.count.n
+    watch.seen.time[k], watch.seen.i[k], watch.seen.j[k] = now, min(i, j), max(i, j)
+    watch.count.n = k + 1
+    return k + 1 == watch.size

@@ -1,0 +1,103 @@
+"""The event loop."""
+
+import math
+
+from granugas.dynamics.events.calendar import next_event, refresh_if_full
+from granugas.dynamics.events.cells import enter_cell, leave_cell, wrapped
+from granugas.dynamics.events.collisions import collide
+from granugas.dynamics.events.composition import generic, inline, kernel
+from granugas.dynamics.events.flight import exit_distances, leaves_through_x, position
+from granugas.dynamics.events.predict import look_around, plan
+from granugas.dynamics.events.state import NOBODY
+
+AROUND = (-1, 1)
+TIME, COLLISIONS, EVENTS, WATCH = 0, 1, 2, 3
+"""Why the loop ended: no event is left up to `calendar.until`, a number was reached, or the watch called."""
+
+
+@generic
+def witness(watch, gas, i, j, now, since, u_n):
+    """Look at a collision that has just happened; True ends the loop after it.
+
+    since: time since the last collision of the partner that collided last (s); u_n: normal relative velocity before (d/s).
+    """
+
+
+@kernel
+def run(gas, most_collisions, most_events):
+    """Process events in order of time up to `calendar.until` or either number of them; returns why it ended."""
+    disks, tally = gas.disks, gas.tally
+    last_collision = tally.collisions + most_collisions
+    for _ in range(most_events):
+        if tally.collisions >= last_collision:
+            return COLLISIONS
+        refresh_if_full(gas)
+        now, i = next_event(gas)
+        if i == NOBODY:
+            return TIME
+        if now < disks.t_coll[i]:
+            _cross(gas, i, now)
+            continue
+        j = disks.partner[i]
+        called = False
+        if j != NOBODY:
+            since, u_n = collide(gas, i, j, now)
+            called = witness(gas.watch, gas, i, j, now, since, u_n)
+            _forget(gas, j)
+        _forget(gas, i)
+        while i != NOBODY:
+            x, y = position(gas, i, now)
+            look_around(gas, i, x, y, now, AROUND, AROUND)
+            plan(gas, i, x, y, now)
+            i, j = j, NOBODY
+        if called:
+            return WATCH
+    return EVENTS
+
+
+@inline
+def _forget(gas, i):
+    """Disk i knows of no collision."""
+    gas.disks.partner[i] = NOBODY
+    gas.disks.t_coll[i] = math.inf
+    gas.schedule.time[i] = math.inf
+
+
+@inline
+def _cross(gas, i, now):
+    """Disk i enters the next cell, where only the three cells ahead are new to it."""
+    disks, grid = gas.disks, gas.grid
+    x, y = position(gas, i, now)
+    to_x, to_y = exit_distances(gas, i, x, y)
+    leave_cell(gas, i)
+    columns, rows = AROUND, AROUND
+    if leaves_through_x(gas, i, to_x, to_y):
+        step = 1 if disks.vx[i] > 0.0 else -1
+        disks.cx[i] = wrapped(disks.cx[i] + step, grid.nx)
+        disks.x[i] -= step * grid.width_x
+        x -= step * grid.width_x
+        columns = (step, step)
+    else:
+        step = 1 if disks.vy[i] > 0.0 else -1
+        disks.cy[i] = wrapped(disks.cy[i] + step, grid.ny)
+        disks.y[i] -= step * grid.width_y
+        y -= step * grid.width_y
+        rows = (step, step)
+    enter_cell(gas, i)
+    gas.tally.crossings += 1
+    look_around(gas, i, x, y, now, columns, rows)
+    plan(gas, i, x, y, now)
+
+
+@kernel
+def start(gas):
+    """Predict everything from positions, velocities and cells alone."""
+    n = gas.calendar.n_disks
+    now = gas.calendar.now
+    for i in range(n):
+        _forget(gas, i)
+        enter_cell(gas, i)
+    for i in range(n):
+        x, y = position(gas, i, now)
+        look_around(gas, i, x, y, now, AROUND, AROUND)
+        plan(gas, i, x, y, now)

@@ -1,0 +1,107 @@
+"""Prediction: who meets whom, and when.
+
+A collision is written into both partners (`partner`, `t_coll`), and the one with the smaller number keeps the appointment in
+the calendar. A disk that loses its partner to an earlier collision keeps the old `t_coll` as a promise that nothing known
+happens before, and looks around again at that time, if nobody has found it by then.
+"""
+
+import math
+
+from granugas.dynamics.events.calendar import cancel, schedule
+from granugas.dynamics.events.cells import list_heads, list_next
+from granugas.dynamics.events.composition import inline
+from granugas.dynamics.events.flight import exit_time
+from granugas.dynamics.events.state import NOBODY
+
+NOISE = 1.0e-30
+"""(1e-15)^2: disks in touch that approach more slowly than 1e-15 of their speeds do so by rounding only."""
+
+LONGEST = 1.0e300
+"""In place of an infinite delay, which would make a NaN of 0 times infinity."""
+
+
+@inline
+def contact_delay(rx, ry, ux, uy, speed_2, longest):
+    """How long until two disks touch, |r + u t| = d = 1; infinite if never or not within `longest`.
+
+    r, u: separation and relative velocity; speed_2: the sum of the squares of both velocities. The solution is the one
+    without cancellation, c / (-b + sqrt(b^2 - u^2 c)), and it is bounded from below by -c / 2b before any root is taken.
+    """
+    b = rx * ux + ry * uy
+    c = rx * rx + ry * ry - 1.0
+    root = b * b - (ux * ux + uy * uy) * c
+    if max(b, -root, c + 2.0 * b * longest) > 0.0:  # one branch for three: none is foreseeable by itself
+        return math.inf
+    if c <= 0.0:
+        return 0.0 if b * b > NOISE * speed_2 else math.inf
+    return c / (math.sqrt(root) - b)
+
+
+@inline
+def look_around(gas, i, x, y, now, columns, rows):
+    """Find the next collision of disk i, at (x, y) now, among the cells of a block around its own; write it into both.
+
+    columns, rows: first and last offset of the block, in -1 ... 1. A collision counts only if it comes before the next
+    known one of either partner.
+    """
+    disks, near = gas.disks, gas.near
+    vx, vy = disks.vx[i], disks.vy[i]
+    speed_2 = vx * vx + vy * vy
+    earliest = disks.t_coll[i]
+    found = NOBODY
+    n = list_heads(gas, i, columns, rows)
+    k = 0
+    while k < n:
+        j = near.disk[k]
+        n = list_next(gas, k, n)
+        flown = now - disks.t[j]
+        wx, wy = disks.vx[j], disks.vy[j]
+        rx = disks.x[j] + wx * flown + near.x[k] - x
+        ry = disks.y[j] + wy * flown + near.y[k] - y
+        delay = contact_delay(rx, ry, wx - vx, wy - vy, speed_2 + wx * wx + wy * wy, min(earliest - now, LONGEST))
+        if now + delay < min(earliest, disks.t_coll[j]):
+            earliest, found = now + delay, j
+        k += 1
+    if found != NOBODY:
+        _pair(gas, i, found, earliest)
+
+
+@inline
+def plan(gas, i, x, y, now):
+    """Enter the next event of disk i, at (x, y) now, into the calendar: leaving its cell, or its collision."""
+    t_coll = gas.disks.t_coll[i]
+    leaves = exit_time(gas, i, x, y, now)
+    if leaves < t_coll:
+        schedule(gas, i, leaves)
+    else:
+        _schedule_collision(gas, i, t_coll)
+
+
+@inline
+def _schedule_collision(gas, i, t_coll):
+    """One of two partners keeps the appointment."""
+    if gas.disks.partner[i] > i or gas.disks.partner[i] == NOBODY:
+        schedule(gas, i, t_coll)
+    else:
+        cancel(gas, i)
+
+
+@inline
+def _pair(gas, i, j, time):
+    """i and j meet at `time`; whoever they were to meet before is left alone."""
+    disks = gas.disks
+    _leave(gas, disks.partner[i])
+    _leave(gas, disks.partner[j])
+    disks.partner[i], disks.partner[j] = j, i
+    disks.t_coll[i], disks.t_coll[j] = time, time
+    if gas.schedule.time[j] > time:
+        _schedule_collision(gas, j, time)
+
+
+@inline
+def _leave(gas, m):
+    """Disk m has lost its partner; it looks around again when they would have met."""
+    if m != NOBODY:
+        gas.disks.partner[m] = NOBODY
+        if gas.schedule.time[m] > gas.disks.t_coll[m]:
+            schedule(gas, m, gas.disks.t_coll[m])

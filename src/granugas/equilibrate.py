@@ -1,0 +1,167 @@
+"""Equilibration: elastic collisions until the start lattice is forgotten and the velocities are Maxwellian."""
+
+import logging
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+import xarray as xr
+
+from granugas.analysis.observables import anisotropy, velocity_kurtosis
+from granugas.dynamics.events.engine import Engine
+from granugas.dynamics.state import State
+from granugas.initial import MELTED_UP_TO, Lattice, random_stream, rescaled, sites, start_lattice, start_velocities
+from granugas.progress import Progress
+from granugas.scene import Scene
+from granugas.storage.variables import describe
+
+COLLISIONS_PER_PARTICLE = 100.0
+"""Of one round, by default."""
+
+MOST_ROUNDS = 30
+"""Rounds after which a start that is still not in equilibrium is taken as it is, which its dataset says."""
+
+SIGMAS = 4.0
+"""Kurtosis and isotropy may deviate by so many standard deviations of a finite sample."""
+
+MOST_ORDER = 16.0
+"""Largest |sum exp(ikr)|^2 / N at the lattice's wave vectors: a fluid has 1 to 5 on average, a crystal of the order of N."""
+
+logger = logging.getLogger("granugas")
+
+
+@dataclass(frozen=True)
+class Equilibrium:
+    """What is known of a start state.
+
+    Attributes:
+        kurtosis: <v^4> / <v^2>^2 of the components, by its value for N disks of this energy and momentum.
+        anisotropy: (E_x - E_y) / E.
+        order: |sum exp(ikr)|^2 / N, the larger of two wave vectors of the start lattice.
+        reached: all three are as in equilibrium (the last one only where a crystal has to melt).
+    """
+
+    kurtosis: float
+    anisotropy: float
+    order: float
+    reached: bool
+
+
+def equilibrate(
+    scene: Scene,
+    *,
+    seed: int = 0,
+    realization: int = 0,
+    collisions_per_particle: float = COLLISIONS_PER_PARTICLE,
+    progress: bool = False,
+) -> xr.Dataset:
+    """The start state of a scene: in equilibrium, at rest as a whole, with E = N m w^2 / 3, at t = 0.
+
+    Rounds of elastic collisions follow each other until a round ends in equilibrium (`judge`). The times of the last
+    collisions go on into the run, as negative times. A start above an area fraction of .70 stays the crystal that it was.
+
+    Returns:
+        Dataset with position (m), velocity (m/s), last_collision_time and last_collision_interval (s) of each particle,
+        and in its attributes the box, the branch ("fluid" or "crystal") and what `judge` found.
+
+    Raises:
+        SceneError: the disks do not fit.
+    """
+    lattice = start_lattice(scene)
+    rng = random_stream(scene, seed, realization)
+    melts = scene.area_fraction <= MELTED_UP_TO
+    start = at_rest(sites(lattice, scene.n_particles, rng), start_velocities(scene, rng), lattice.box)
+    elastic = replace(scene, restitution=1.0, contact_time=0.0)
+    engine = Engine(elastic, start)
+    found, rounds = judge(start, lattice, melts), 0
+    bar = Progress("equilibrate", shown=progress)
+    while not found.reached and rounds < MOST_ROUNDS and scene.n_particles > 1:
+        rounds += 1
+        wanted = math.ceil(scene.n_particles * collisions_per_particle / 2)
+        bar.follow(engine, collisions=wanted)
+        found = judge(engine.state(), lattice, melts)
+    bar.close()
+    done = 2 * engine.collisions / scene.n_particles
+    if not found.reached:
+        logger.warning("not in equilibrium after %g collisions per particle: %s", done, found)
+    return _dataset(scene, lattice, _at_time_zero(engine.state(), scene), found, done)
+
+
+def judge(state: State, lattice: Lattice, melts: bool) -> Equilibrium:
+    """Compare a state with equilibrium; the finite-size value of the kurtosis is that of 2N - 2 free components."""
+    n = len(state.position)
+    free = max(2 * n - 2, 1)
+    kurtosis = float(np.mean(velocity_kurtosis(state.velocity)) / (3 * free / (free + 2)))
+    uneven = anisotropy(state.velocity)
+    order = max(_order(state, lattice, hk) for hk in ((1, 0), (0, 1)))
+    reached = (
+        abs(kurtosis - 1) <= SIGMAS * math.sqrt(24 / (2 * n)) / 3
+        and abs(uneven) <= SIGMAS / math.sqrt(n)
+        and (order <= MOST_ORDER or not melts)
+        and bool(np.all(state.collisions > 0))
+    )
+    return Equilibrium(kurtosis, uneven, order, reached)
+
+
+def at_rest(position: np.ndarray, velocity: np.ndarray, box: tuple[float, float]) -> State:
+    """A state at t = 0 in which nobody has collided yet."""
+    n = len(position)
+    never, endless = np.full(n, -np.inf), np.full(n, np.inf)
+    return State(0.0, box, position, velocity, never, endless, np.zeros(n, np.int64))
+
+
+def state_of(start: xr.Dataset) -> State:
+    """The state in a dataset of `equilibrate`."""
+    return State(
+        time=0.0,
+        box=(start.attrs["box_x"], start.attrs["box_y"]),
+        position=start["position"].values,
+        velocity=start["velocity"].values,
+        last_collision_time=start["last_collision_time"].values,
+        last_collision_interval=start["last_collision_interval"].values,
+        collisions=np.zeros(start.sizes["particle"], np.int64),
+    )
+
+
+def _order(state: State, lattice: Lattice, hk: tuple[int, int]) -> float:
+    """|sum exp(ikr)|^2 / N at a reciprocal vector of the start lattice (rows of a triangular one are two to a cell)."""
+    rows = lattice.ny / 2 if lattice.kind == "triangular" else lattice.ny
+    number = (hk[0] * lattice.nx, hk[1] * rows * (2 if lattice.kind == "triangular" else 1))
+    phase = 2 * np.pi * (state.position / np.array(state.box)) @ np.array(number)
+    return float(abs(np.exp(1j * phase).sum()) ** 2 / len(phase))
+
+
+def _at_time_zero(state: State, scene: Scene) -> State:
+    velocity = state.velocity
+    if scene.n_particles > 1:
+        velocity = velocity - velocity.mean(axis=0)
+    return replace(
+        state,
+        time=0.0,
+        velocity=rescaled(velocity, scene.velocity_half_width),
+        last_collision_time=state.last_collision_time - state.time,
+    )
+
+
+def _dataset(scene: Scene, lattice: Lattice, state: State, found: Equilibrium, collisions: float) -> xr.Dataset:
+    particles = ("particle",)
+    values = {
+        "position": ((*particles, "axis"), state.position),
+        "velocity": ((*particles, "axis"), state.velocity),
+        "last_collision_time": (particles, state.last_collision_time),
+        "last_collision_interval": (particles, state.last_collision_interval),
+    }
+    attributes = {
+        "box_x": state.box[0],
+        "box_y": state.box[1],
+        "lattice_kind": lattice.kind,
+        "lattice_columns": lattice.nx,
+        "lattice_rows": lattice.ny,
+        "branch": "fluid" if scene.area_fraction <= MELTED_UP_TO else "crystal",
+        "equilibration_collisions_per_particle": collisions,
+        "equilibration_kurtosis": found.kurtosis,
+        "equilibration_anisotropy": found.anisotropy,
+        "equilibration_order": found.order,
+        "equilibration_reached": int(found.reached or scene.n_particles == 1),
+    }
+    return describe(xr.Dataset(values, coords={"axis": ["x", "y"]}, attrs=attributes))

@@ -1,0 +1,152 @@
+"""What the workflow's jobs and its main process share: logs, one build at a time, progress, and what went wrong."""
+
+import ctypes
+import fcntl
+import logging
+import os
+import re
+import signal
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import NamedTuple
+
+PR_SET_PDEATHSIG = 1
+
+
+class Job(NamedTuple):
+    """A job of the workflow: its rule, the files that it makes and its log."""
+
+    rule: str
+    outputs: tuple[Path, ...]
+    log: Path | None
+
+    def is_built(self, since: float) -> bool:
+        """Whether all its files are there, none older than a time in s since the epoch."""
+        return all(_is_there(path, since) for path in self.outputs)
+
+    def has_started(self, since: float) -> bool:
+        """Whether it wrote into its log after that time."""
+        return self.log is not None and _is_there(self.log, since)
+
+    def last_words(self) -> str:
+        """The last line of its log: the reason where it failed."""
+        lines = [line for line in self.log.read_text(errors="replace").splitlines() if line.strip()]
+        return lines[-1].strip() if lines else "it wrote nothing into its log"
+
+
+@contextmanager
+def logged(path: str | Path) -> Iterator[None]:
+    """Let everything that a job says go to its log, and the job die with the workflow that started it.
+
+    Standard output, standard error and logging are sent to the file, so an error ends the log with its traceback, the
+    reason in the last line. The package's warnings go to the terminal as well.
+    """
+    if sys.platform == "linux":
+        ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
+    terminal = logging.StreamHandler(os.fdopen(os.dup(2), "w"))
+    terminal.setLevel(logging.WARNING)
+    terminal.addFilter(logging.Filter("granugas"))
+    Path(path).parent.mkdir(parents=True, exist_ok=True)
+    with open(path, "w") as log:
+        os.dup2(log.fileno(), 1)
+        os.dup2(log.fileno(), 2)
+    form = f"%(asctime)s {Path(path).stem}: %(message)s"
+    logging.basicConfig(format=form, datefmt="%H:%M:%S", handlers=[logging.StreamHandler(sys.stderr), terminal])
+    logging.getLogger("granugas").setLevel(logging.INFO)
+    yield
+    logging.getLogger("granugas").info("done")
+
+
+def claim(output: str | Path) -> None:
+    """Take the folder of the results for this process until it ends, and remove what killed jobs left half written.
+
+    Raises:
+        BlockingIOError: another process has it.
+    """
+    output = Path(output)
+    output.mkdir(parents=True, exist_ok=True)
+    lock = os.open(output / ".lock", os.O_CREAT | os.O_RDWR, 0o644)  # held until the process ends
+    fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    for path in output.glob("*/.*.*"):
+        if re.fullmatch(r"\..+\.\d+", path.name):
+            path.unlink()
+
+
+def warm_up(log: str | Path) -> None:
+    """Compile the kernels in a process of its own, so that jobs that start together find them compiled.
+
+    No rule does this: compiled kernels belong to the machine, not to the results. Where it fails the jobs fail too, and
+    say so in their logs.
+    """
+    Path(log).parent.mkdir(parents=True, exist_ok=True)
+    with open(log, "w") as file:
+        command = [sys.executable, "-c", "import granugas; granugas.warm_up()"]
+        subprocess.run(command, stdout=file, stderr=subprocess.STDOUT, check=False)
+
+
+def tell_progress(costs: Mapping[Job, float], since: float, every: float = 30.0) -> None:
+    """Say from time to time, from a thread of its own, which share of the expected work is done and how long it takes.
+
+    Args:
+        costs: the jobs that count and the work that each is expected to be, in any unit.
+        since: start of the build, s since the epoch.
+        every: s between two lines.
+    """
+    threading.Thread(target=_tell, args=(costs, since, every), daemon=True).start()
+
+
+def progress(costs: Mapping[Job, float], since: float, now: float) -> str:
+    """One line: jobs done, share of the expected work, time so far and to go."""
+    shares = {job: _share(job, since) for job in costs}
+    done = sum(costs[job] * share for job, share in shares.items()) / (sum(costs.values()) or 1.0)
+    runs = sum(job.is_built(since) for job in costs)
+    to_go = f", about {_duration((now - since) * (1 - done) / done)} to go" if done > 0 else ""
+    return f"{runs} of {len(costs)} runs, {done:.0%} of the expected work, {_duration(now - since)} so far{to_go}"
+
+
+def failures(jobs: Iterable[Job], since: float, finals: Sequence[str]) -> str:
+    """What a failed build lacks and why, for people.
+
+    Args:
+        jobs: all that were to run.
+        since: start of the build, s since the epoch.
+        finals: beginnings of the names of the rules that make what people want.
+    """
+    missing = [job for job in jobs if job.outputs and not job.is_built(since)]
+    wanted = [f"  {job.outputs[0]}" for job in missing if job.rule.startswith(tuple(finals))]
+    failed = [job for job in missing if job.has_started(since)]
+    reasons = [f"  {job.rule} {job.outputs[0].stem}: {job.last_words()} (log: {job.log})" for job in failed]
+    return "\n".join(["Missing or out of date:", *wanted, "Because of:", *reasons])
+
+
+def _tell(costs: Mapping[Job, float], since: float, every: float) -> None:
+    while True:
+        time.sleep(every)
+        print(progress(costs, since, time.time()), file=sys.stderr, flush=True)
+
+
+def _share(job: Job, since: float) -> float:
+    """Of a job that is done, from its files; of one that runs, from the last percentage in its log."""
+    if job.is_built(since):
+        return 1.0
+    percent = re.findall(r"(\d+(?:\.\d+)?) ?%", job.last_words()) if job.has_started(since) else []
+    return min(float(percent[-1]) / 100, 1.0) if percent else 0.0
+
+
+def _is_there(path: Path, since: float) -> bool:
+    try:
+        return path.stat().st_mtime >= since
+    except FileNotFoundError:
+        return False
+
+
+def _duration(seconds: float) -> str:
+    for size, unit in ((3600.0, "h"), (60.0, "min")):
+        if seconds >= size:
+            return f"{seconds / size:.1f} {unit}"
+    return f"{seconds:.0f} s"

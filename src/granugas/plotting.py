@@ -1,0 +1,177 @@
+"""The style of the figures, and the drawings that they share.
+
+Figures are made without pyplot: no window, no state between two of them.
+"""
+
+from collections.abc import Callable, Iterator, Sequence
+from functools import wraps
+from itertools import product
+from pathlib import Path
+from typing import Any
+
+import matplotlib as mpl
+import numpy as np
+import xarray as xr
+from matplotlib import style
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.ticker import NullFormatter
+
+from granugas.analysis.statistics import PowerLaw
+
+STYLE = Path(__file__).with_name("granugas.mplstyle")
+COLUMN, PAGE = 3.4, 7.0
+"""Widths of one column and of a page in inches."""
+
+THEORY = {"color": "black", "linestyle": (0, (5, 2)), "linewidth": 1.0, "zorder": 3}
+"""How a closed formula is drawn."""
+
+SYMBOLS = {
+    "n_particles": "$N$",
+    "area_fraction": r"$\nu$",
+    "restitution": "$r$",
+    "contact_time": "$t_c$",
+    "diameter": "$d$",
+    "velocity_half_width": "$w$",
+}
+"""Of the keys of a scene."""
+
+METADATA = {
+    ".png": {"Software": None},
+    ".pdf": {"CreationDate": None, "Creator": None, "Producer": None},
+    ".svg": {"Date": None, "Creator": None},
+}
+"""Nothing in a picture file that changes with the day."""
+
+Draw = Callable[[dict[str, xr.Dataset]], Figure]
+
+
+def styled(draw: Draw) -> Draw:
+    """The function `draw`, with granugas.mplstyle in force while it draws."""
+
+    @wraps(draw)
+    def drawn(data: dict[str, xr.Dataset]) -> Figure:
+        with style.context(STYLE):
+            return draw(data)
+
+    return drawn
+
+
+def save(figure: Figure, *paths: str | Path) -> None:
+    """Write a figure to each path, its format by the ending; equal figures give equal files."""
+    for path in map(Path, paths):
+        path.parent.mkdir(parents=True, exist_ok=True)
+        with style.context(STYLE):
+            figure.savefig(path, metadata=METADATA.get(path.suffix))
+
+
+def grid_points(data: xr.Dataset) -> Iterator[tuple[dict[str, Any], xr.Dataset]]:
+    """Each point of a study's grid that has runs: the keys and values of its scene, and its data over `realization`.
+
+    Realizations without any value are left out.
+    """
+    keys = [dim for dim in data["kinetic_energy"].dims if dim not in ("realization", "time")]
+    for values in product(*(data[key].values for key in keys)):
+        point = dict(zip(keys, values, strict=True))
+        runs = data.sel(point).dropna("realization", how="all", subset=["kinetic_energy"])
+        if runs.sizes["realization"]:
+            yield data.attrs | point, runs
+
+
+def times(runs: xr.Dataset) -> xr.DataArray:
+    """Times of the samples in s: their coordinate, or the mean over realizations where runs ended by collisions."""
+    return runs["sampling_time"].mean("realization") if "sampling_time" in runs else runs["time"]
+
+
+def band(axes: Axes, x: xr.DataArray, y: xr.DataArray, *, spread: bool = True, **line: Any) -> Line2D:
+    """The mean over realizations as a line, geometric on a logarithmic axis, and their range as a band.
+
+    Both end where the first realization ends. Points that a logarithmic axis cannot show are left out.
+
+    Args:
+        axes: with their scales set.
+        x: over `time`, or `realization` and `time`; then its mean is taken.
+        y: over `realization` and `time`.
+        spread: whether the band is drawn.
+        line: how the line is drawn.
+    """
+    logarithmic = axes.get_yscale() == "log"
+    x = x.mean("realization") if "realization" in x.dims else x
+    y = y.transpose("realization", "time").values
+    shown = ~np.isnan(y).any(axis=0)
+    if axes.get_xscale() == "log":
+        shown &= (x > 0).values
+    if logarithmic:
+        shown &= (y > 0).all(axis=0)
+    x, y = x.values[shown], y[:, shown]
+    mean = np.exp(np.log(y).mean(axis=0)) if logarithmic else y.mean(axis=0)
+    (drawn,) = axes.plot(x, mean, **line)
+    if spread and len(y) > 1:
+        axes.fill_between(x, y.min(axis=0), y.max(axis=0), color=drawn.get_color(), alpha=0.2, linewidth=0)
+    return drawn
+
+
+def power_line(curve: Line2D, window: tuple[float, float], power: float, factor: float, text: str) -> None:
+    """A thin line of slope `power` on logarithmic axes to compare a curve with, a text at its middle.
+
+    Args:
+        curve: as `band` returns it.
+        window: beginning and end in x.
+        power: the slope.
+        factor: where the line begins, in units of the curve there.
+        text: on the side away from the curve.
+    """
+    x = np.array([window[0], np.sqrt(window[0] * window[1]), window[1]])
+    y = factor * np.interp(x[0], *curve.get_data()) * (x / x[0]) ** power
+    axes = curve.axes
+    axes.plot(x, y, color="0.35", linewidth=0.9)
+    above, falling = factor > 1, power < 0
+    place = {"ha": "left" if above == falling else "right", "va": "bottom" if above else "top"}
+    shift = 3 if above == falling else -3, 2 if above else -2
+    axes.annotate(text, (x[1], y[1]), shift, textcoords="offset points", color="0.35", fontsize="small", **place)
+
+
+def only_decades(*axes: Axes) -> None:
+    """No numbers between the powers of ten, which collide in small panels."""
+    for one in axes:
+        one.xaxis.set_minor_formatter(NullFormatter())
+        one.yaxis.set_minor_formatter(NullFormatter())
+
+
+def shades(n: int) -> list[tuple[float, ...]]:
+    """n colours in order, from dark to light, that differ in brightness too."""
+    return [tuple(colour) for colour in mpl.colormaps["viridis"](np.linspace(0, 0.88, n))]
+
+
+def mark_panels(*panels: Axes) -> None:
+    """(a), (b), ... in the upper left corners, outside."""
+    for letter, axes in zip("abcdefgh", panels, strict=False):
+        axes.set_title(f"({letter})", loc="left")
+
+
+def power_of_ten(value: float) -> str:
+    """A number as people write contact times: 10^-5, 5 x 10^-4, 0."""
+    if value == 0:
+        return "$0$"
+    mantissa, exponent = f"{value:.3e}".split("e")
+    factor = "" if float(mantissa) == 1 else rf"{float(mantissa):g}\times"
+    return f"${factor}10^{{{int(exponent)}}}$"
+
+
+def exponent(fit: PowerLaw) -> str:
+    """An exponent with its interval, if it has one."""
+    error = "" if np.isnan(fit.half_width) else rf" \pm {fit.half_width:.2f}"
+    return f"${fit.exponent:.2f}{error}$"
+
+
+def point_names(points: Sequence[dict[str, Any]]) -> list[str]:
+    """What tells the points of a grid apart, in words for a legend."""
+    keys = [key for key in points[0] if len({str(point[key]) for point in points}) > 1]
+    return [", ".join(f"{SYMBOLS.get(key, key)} = {_number(point[key])}" for key in keys) for point in points]
+
+
+def _number(value: Any) -> str:
+    if isinstance(value, str):
+        return value
+    return power_of_ten(value) if 0 < value < 0.02 else f"${value:.10g}$"

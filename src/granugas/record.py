@@ -1,0 +1,143 @@
+"""What a run writes down on its way: one row a sample, all particles at the snapshots."""
+
+from collections.abc import Sequence
+
+import numpy as np
+import xarray as xr
+
+from granugas.analysis.observables import elastic_energy_fraction, elastic_particle_fraction, kinetic_energy
+from granugas.analysis.theory import enskog_rate
+from granugas.dynamics.events.engine import Tally
+from granugas.dynamics.state import State
+from granugas.sampling import Samples
+from granugas.scene import Scene
+
+FREQUENCY_WINDOW = 0.9
+"""collision_frequency counts a particle's collisions from this part of the time of a snapshot to the snapshot."""
+
+SERIES = (
+    "tau",
+    "kinetic_energy",
+    "kinetic_energy_x",
+    "kinetic_energy_y",
+    "collisions_per_particle",
+    "collision_rate",
+    "reduced_pressure",
+    "collisional_stress_xx",
+    "collisional_stress_xy",
+    "collisional_stress_yx",
+    "collisional_stress_yy",
+)
+ELASTIC = (
+    "elastic_collisions_per_particle",
+    "elastic_collision_fraction",
+    "elastic_particle_fraction",
+    "elastic_energy_fraction",
+)
+
+
+class Record:
+    """Arrays that fill as the run goes on; what it does not reach stays NaN."""
+
+    def __init__(
+        self, scene: Scene, start: State, points: Samples, snapshots: Sequence[float], keep_positions: bool
+    ) -> None:
+        """Take the sample at t = 0. `snapshots` in s; with `keep_positions` every sample keeps the positions."""
+        self._scene, self._points = scene, points
+        self._contact_times = np.array(sorted(scene.contact_times))
+        self.snapshots = np.array(sorted(snapshots), dtype=float)
+        count, n = len(points.points) + 1, scene.n_particles
+        self._time = np.full(count, np.nan)
+        self._series = {name: np.full(count, np.nan) for name in SERIES}
+        self._elastic = {name: np.full((count, len(self._contact_times)), np.nan) for name in ELASTIC}
+        self._trajectory = np.full((count, n, 2), np.nan) if keep_positions else None
+        self._particles = {
+            "position": np.full((len(self.snapshots), n, 2), np.nan),
+            "velocity": np.full((len(self.snapshots), n, 2), np.nan),
+            "last_collision_time": np.full((len(self.snapshots), n), np.nan),
+            "last_collision_interval": np.full((len(self.snapshots), n), np.nan),
+            "collision_frequency": np.full((len(self.snapshots), n), np.nan),
+        }
+        self._start, self._energy = start, float(kinetic_energy(start.velocity).sum())
+        self._rate = float(enskog_rate(scene.area_fraction, self._energy / n, scene.diameter))
+        self._done, self._windows = 0, {}
+        self._collisions, self._elastic_collisions = 0, np.zeros(len(self._contact_times), np.int64)
+        self._write(start)
+
+    def sample(self, state: State, tally: Tally) -> None:
+        """Write one row: the state at a sampling point, and what happened since the one before."""
+        k, n = self._done, self._scene.n_particles
+        dt = state.time - self._time[k - 1]
+        self._collisions += tally.collisions
+        self._elastic_collisions = self._elastic_collisions + tally.elastic
+        self._write(state)
+        if dt > 0:
+            energy = kinetic_energy(state.velocity).sum() + tally.loss - tally.loss_time / dt  # mean over the interval
+            stress = -tally.stress / (energy * dt)  # A Eq. 15, times V/E
+            self._series["collision_rate"][k] = 2 * tally.collisions / (n * dt)
+            self._series["reduced_pressure"][k] = 1 + np.trace(stress) / 2
+            for a, first in enumerate("xy"):
+                for b, second in enumerate("xy"):
+                    self._series[f"collisional_stress_{first}{second}"][k] = stress[a, b]
+        if tally.collisions > 0:
+            self._elastic["elastic_collision_fraction"][k] = tally.elastic / tally.collisions
+
+    def open_window(self, k: int, state: State) -> None:
+        """Begin to count the collisions for the collision frequency of snapshot k."""
+        self._windows[k] = state
+
+    def take_snapshot(self, k: int, state: State) -> None:
+        """Keep all particles for snapshot k."""
+        window, keep = self._windows.pop(k), self._particles
+        keep["position"][k], keep["velocity"][k] = state.position, state.velocity
+        keep["last_collision_time"][k] = state.last_collision_time
+        keep["last_collision_interval"][k] = state.last_collision_interval
+        keep["collision_frequency"][k] = (state.collisions - window.collisions) / (state.time - window.time)
+
+    def dataset(self) -> xr.Dataset:
+        """All that was written, without the attributes of the variables."""
+        several = isinstance(self._scene.contact_time, tuple)
+        by_time = self._points.axis == "time"
+        data = xr.Dataset(
+            {name: ("time", values) for name, values in self._series.items()},
+            coords={
+                "time": np.concatenate([[0.0], self._points.points]) if by_time else np.arange(len(self._time)),
+                "snapshot": self.snapshots,
+                "axis": ["x", "y"],
+            },
+            attrs={
+                "box_x": self._start.box[0],
+                "box_y": self._start.box[1],
+                "frequency_window": f"from {FREQUENCY_WINDOW} of the time of the snapshot to the snapshot",
+            },
+        )
+        if not by_time:
+            data["sampling_time"] = ("time", self._time)
+        if several:
+            data = data.assign_coords(contact_time=self._contact_times)
+        for name, values in self._elastic.items():
+            data[name] = (("time", "contact_time"), values) if several else ("time", values[:, 0])
+        for name, values in self._particles.items():
+            data[name] = (("snapshot", "particle", "axis")[: values.ndim], values)
+        data["initial_y"] = ("particle", self._start.position[:, 1])
+        data["enskog_rate"] = self._rate
+        if self._trajectory is not None:
+            data["trajectory"] = (("time", "particle", "axis"), self._trajectory)
+        return data
+
+    def _write(self, state: State) -> None:
+        """Write what the state alone says into the next row."""
+        k, n = self._done, self._scene.n_particles
+        along_x, along_y = kinetic_energy(state.velocity) / self._energy
+        self._time[k] = state.time
+        self._series["tau"][k] = state.time * self._rate
+        self._series["kinetic_energy"][k] = along_x + along_y
+        self._series["kinetic_energy_x"][k], self._series["kinetic_energy_y"][k] = along_x, along_y
+        self._series["collisions_per_particle"][k] = 2 * self._collisions / n
+        self._elastic["elastic_collisions_per_particle"][k] = 2 * self._elastic_collisions / n
+        instant = (state.last_collision_time, state.time, self._contact_times)
+        self._elastic["elastic_particle_fraction"][k] = elastic_particle_fraction(*instant)
+        self._elastic["elastic_energy_fraction"][k] = elastic_energy_fraction(state.velocity, *instant)
+        if self._trajectory is not None:
+            self._trajectory[k] = state.position
+        self._done += 1

@@ -1,0 +1,110 @@
+"""Datasets on disk: written whole with their provenance and a digest of their content, read back as they were.
+
+The rest of what storage offers can be had from here too: the table of variables, the pooling of runs, packed positions.
+"""
+
+import hashlib
+import json
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from granugas.storage.files import encoding, labels, replacing
+from granugas.storage.pooling import pool
+from granugas.storage.positions import read_positions, write_positions
+from granugas.storage.provenance import plain, provenance
+from granugas.storage.variables import VARIABLES, Variable, describe
+
+__all__ = [
+    "VARIABLES",
+    "Variable",
+    "content_sha256",
+    "describe",
+    "pool",
+    "read",
+    "read_positions",
+    "write",
+    "write_positions",
+]
+
+NOT_CONTENT = ("wall_time", "cpu_", "provenance", "content_sha256", "history", "title", "Conventions")
+"""Beginnings of the names that `content_sha256` passes over."""
+
+BLOCK = 2**20
+"""Numbers that are digested at a time."""
+
+
+def content_sha256(dataset: xr.Dataset) -> str:
+    """Hexadecimal SHA-256 of what a dataset says: names, dimensions, values, and attributes but those of the table.
+
+    The order of variables, the width and byte order of numbers, chunks and the bits of a NaN do not count, so a dataset
+    in memory and the file it is written to have the same digest. Passed over are `wall_time*`, `cpu_*`, the provenance
+    and the labels of a file: two runs of one seed agree.
+    """
+    total = hashlib.sha256()
+    total.update(_text(_content_of(dataset.attrs)))
+    for name in sorted(_content_of(dataset.variables)):
+        variable = dataset.variables[name]
+        own = {key: value for key, value in variable.attrs.items() if key not in Variable._fields}
+        kind = {"f": "real", "i": "whole", "u": "whole", "b": "whole"}.get(variable.dtype.kind, "text")
+        total.update(_text([name, kind, variable.dims, variable.shape, own]))
+        for block in _blocks(variable.values, kind):
+            total.update(block)
+    return total.hexdigest()
+
+
+def write(dataset: xr.Dataset, path: str | Path, parameters: Mapping[str, Any] | None = None) -> None:
+    """Write a netCDF file (CF-1.11, compressed) that is either whole or not there; equal data give equal files.
+
+    Args:
+        dataset: any of the table's variables; they are described on the way.
+        path: its folder is made.
+        parameters: all that was asked for, for the provenance; without them the provenance that the dataset has stays,
+            and one without any gets the dataset's attributes as parameters.
+
+    Raises:
+        KeyError: a variable that is not in the table.
+    """
+    described = describe(dataset)
+    described.attrs = labels() | described.attrs
+    described.attrs["content_sha256"] = content_sha256(described)
+    if parameters is not None or "provenance" not in described.attrs:
+        asked = _content_of(dataset.attrs) if parameters is None else parameters
+        described.attrs["provenance"] = json.dumps(provenance(asked), sort_keys=True)
+    with replacing(path) as temporary:
+        described.to_netcdf(temporary, engine="netcdf4", encoding=encoding(described))
+
+
+def read(path: str | Path) -> xr.Dataset:
+    """The dataset of a file, in memory, the file closed.
+
+    Raises:
+        FileNotFoundError: no such file.
+    """
+    return xr.load_dataset(path, engine="netcdf4", decode_times=False)
+
+
+def _content_of(named: Mapping[str, Any]) -> dict[str, Any]:
+    return {name: value for name, value in named.items() if not str(name).startswith(NOT_CONTENT)}
+
+
+def _text(value: Any) -> bytes:
+    return json.dumps(plain(value), sort_keys=True).encode()
+
+
+def _blocks(values: np.ndarray, kind: str) -> Iterator[bytes]:
+    """The values in one width and byte order, piece by piece."""
+    flat = np.ravel(values)
+    for start in range(0, flat.size, BLOCK):
+        block = flat[start : start + BLOCK]
+        if kind == "text":
+            yield _text(block.astype(str).tolist())
+        elif kind == "whole":
+            yield block.astype("<i8").tobytes()
+        else:
+            block = block.astype("<f8")
+            block[np.isnan(block)] = np.nan
+            yield block.tobytes()

@@ -1,0 +1,82 @@
+"""Positions at the sampling times in a file of their own: packed, so that clusters can be analysed again later."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import netCDF4
+import numpy as np
+import xarray as xr
+
+from granugas.storage.files import chunk_sizes, encoding, labels, replacing
+from granugas.storage.variables import VARIABLES, describe
+
+LEVELS = 2**32 - 1
+"""Steps of the longer side of the box; the code LEVELS itself means that there is no value."""
+
+
+def write_positions(dataset: xr.Dataset, path: str | Path) -> None:
+    """Write `trajectory`, its coordinates and all global attributes, 4 bytes a number, whole or not at all.
+
+    A position is rounded down to a multiple of L / (2^32 - 1), L the longer side of the box; CF readers find that as
+    `scale_factor`. It is packed time step by time step, so that no second copy is in memory.
+
+    Args:
+        dataset: a run with `trajectory` (time, particle, axis) in m, in [0, L), NaN after its end, and the attributes
+            `box_x`, `box_y` in m.
+
+    Raises:
+        KeyError: no trajectory, or no size of the box.
+        ValueError: a position outside of the box.
+    """
+    trajectory = dataset["trajectory"]
+    sides = np.array([dataset.attrs[f"box_{axis}"] for axis in dataset["axis"].values])
+    names = [name for name in dataset.variables if name in trajectory.coords or name == "sampling_time"]
+    header = describe(dataset[names])
+    header.attrs = labels() | dataset.attrs
+    scale = sides.max() / LEVELS
+    attributes = VARIABLES["trajectory"].attributes() | {"scale_factor": scale}
+    with replacing(path) as temporary:
+        header.to_netcdf(temporary, engine="netcdf4", encoding=encoding(header))
+        with netCDF4.Dataset(temporary, "a") as file:
+            for dim in {*trajectory.dims} - {*file.dimensions}:
+                file.createDimension(dim, trajectory.sizes[dim])
+            packed = file.createVariable(
+                "trajectory",
+                "u4",
+                trajectory.dims,
+                fill_value=LEVELS,
+                chunksizes=chunk_sizes(trajectory.shape),
+                zlib=True,
+                complevel=1,
+            )
+            packed.set_auto_maskandscale(False)
+            packed.setncatts(attributes)
+            for i, codes in enumerate(_codes(trajectory, sides, scale)):
+                packed[i] = codes
+
+
+def read_positions(path: str | Path) -> xr.Dataset:
+    """The file's dataset, opened and not yet read: `trajectory` in m is read and unpacked where it is indexed.
+
+        with read_positions(path) as data:
+            for step in data["trajectory"]:
+                positions = step.values  # (particle, axis) in m
+
+    Raises:
+        FileNotFoundError: no such file.
+    """
+    return xr.open_dataset(path, engine="netcdf4", decode_times=False)
+
+
+def _codes(trajectory: xr.DataArray, sides: np.ndarray, scale: float) -> Iterator[np.ndarray]:
+    """Multiples of the scale, one time step (particle, axis) after the other."""
+    largest = np.minimum(np.floor(sides / scale), LEVELS - 1)
+    largest -= largest * scale >= sides  # unpacked positions are inside of the box, too
+    for step in trajectory:
+        positions = step.values
+        if ((positions < 0) | (positions > sides)).any():
+            raise ValueError(
+                f"trajectory: a position outside of the box, allowed is [0, {sides[0]:g}) x [0, {sides[1]:g}) m"
+            )
+        codes = np.minimum(np.floor(positions / scale), largest)
+        yield np.where(np.isnan(codes), LEVELS, codes).astype(np.uint32)

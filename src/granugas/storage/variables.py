@@ -1,0 +1,154 @@
+"""The one table of everything that a dataset can hold.
+
+A and B in `equation` are the papers: A = Luding & McNamara, Granular Matter 1 (1998) 113; B = Luding & Herrmann,
+Chaos 9 (1999) 673. The dimensions are, as far as a variable has them: the grid keys and `realization` (in pooled data),
+`time` or `snapshot`, `distance_factor`, `cluster_size`, `particle`, `axis`.
+"""
+
+from typing import NamedTuple
+
+import xarray as xr
+
+
+class Variable(NamedTuple):
+    """What a variable means; all but an empty text becomes its attributes.
+
+    Attributes:
+        units: as CF writes them, "1" for a pure number, None for texts.
+        long_name: in words.
+        symbol: in the papers, or with their letters.
+        equation: where it is defined.
+    """
+
+    units: str | None
+    long_name: str
+    symbol: str = ""
+    equation: str = ""
+
+    def attributes(self) -> dict[str, str]:
+        """The attributes of such a variable in a dataset."""
+        return {name: text for name, text in self._asdict().items() if text}
+
+
+_INTERVAL = "over the interval since the sample before"
+
+VARIABLES = {
+    # the grid of a study: what a scene is made of
+    "n_particles": Variable("1", "number of particles", "N"),
+    "area_fraction": Variable("1", "area fraction of the particles", "nu = N pi d^2 / (4 V)", "A Eq. 16, B section 3"),
+    "restitution": Variable("1", "coefficient of restitution", "r", "A Eq. 3"),
+    "contact_time": Variable("s", "contact duration of the TC model", "t_c", "A Eq. 4"),
+    "diameter": Variable("m", "diameter of the particles", "d = 2 a"),
+    "velocity_half_width": Variable("m s-1", "half width of the start distribution of velocity components", "w"),
+    "dynamics": Variable(None, "method that moves the particles"),
+    "lattice": Variable(None, "start lattice"),
+    "dimensions": Variable("1", "dimensions of space", "D"),
+    "boundary": Variable(None, "boundary of the box"),
+    "aspect_ratio": Variable("1", "ratio of the sides of the box", "L_x / L_y"),
+    # its start state
+    "box_x": Variable("m", "side of the box along x", "L_x"),
+    "box_y": Variable("m", "side of the box along y", "L_y"),
+    "lattice_kind": Variable(None, "start lattice that was taken"),
+    "lattice_columns": Variable("1", "columns of the start lattice"),
+    "lattice_rows": Variable("1", "rows of the start lattice"),
+    "branch": Variable(None, "branch of the equation of state: fluid, or the crystal that the start lattice was"),
+    "equilibration_collisions_per_particle": Variable(
+        "1", "collisions of a particle before t = 0, counted for both partners", "C/N", "A section 5.3"
+    ),
+    "equilibration_kurtosis": Variable(
+        "1", "kurtosis of the velocity components at t = 0 by its value in equilibrium", "<v^4> / <v^2>^2"
+    ),
+    "equilibration_anisotropy": Variable("1", "difference of the energies along x and y at t = 0", "(E_x - E_y)/E"),
+    "equilibration_order": Variable("1", "what is left of the start lattice at t = 0", "|sum exp(ikr)|^2 / N"),
+    "equilibration_reached": Variable("1", "whether the start state is in equilibrium: 1, or not: 0"),
+    # coordinates
+    "realization": Variable("1", "number of the realization"),
+    "time": Variable("s", "time since dissipation began", "t"),
+    "sampling_time": Variable("s", "time since dissipation began, at the samples of the run", "t"),
+    "snapshot": Variable("s", "time of the snapshot", "t"),
+    "axis": Variable(None, "axis of space"),
+    "distance_factor": Variable("1", "distance factor of the cluster criterion", "S_c", "B Eq. 6"),
+    "cluster_size": Variable("1", "number of particles in a cluster, lower edge of the bin", "M"),
+    "cluster_size_upper": Variable("1", "upper edge of the bin of cluster sizes, itself outside"),
+    # one number at each sample
+    "tau": Variable("1", "time in units of the initial Enskog collision time", "tau = t / t_E(0)", "A Eq. 19, B Eq. 2"),
+    "kinetic_energy": Variable("1", "kinetic energy by its initial value", "K = E/E(0) (A: T)", "A Eq. 23, B Eq. 1"),
+    "kinetic_energy_x": Variable("1", "kinetic energy of motion along x by the initial energy", "K_x", "B section 3"),
+    "kinetic_energy_y": Variable(
+        "1", "kinetic energy of motion along y by the initial energy", "K_y (B: K_z), K = K_x + K_y", "B section 3"
+    ),
+    "collisions_per_particle": Variable(
+        "1",
+        "collisions of a particle since t = 0, counted for both partners",
+        "C/N (A: C_t/N)",
+        "A section 5.3, B Eq. 4",
+    ),
+    "elastic_collisions_per_particle": Variable(
+        "1", "elastic collisions of a particle since t = 0, counted for both partners", "C_e/N", "A Eq. 4, B Fig. 3"
+    ),
+    "collision_rate": Variable("s-1", f"collision rate of a particle {_INTERVAL}", "C_r = 2 C / (N dt)", "A Eq. 18"),
+    "elastic_collision_fraction": Variable(
+        "1", f"fraction of collisions that are elastic {_INTERVAL}", "c_e = C_e/C", "A Eq. 21"
+    ),
+    "elastic_particle_fraction": Variable(
+        "1", "fraction of particles whose last collision was no longer than t_c ago", "n_e = N_e/N", "A Eq. 20"
+    ),
+    "elastic_energy_fraction": Variable(
+        "1", "fraction of the kinetic energy that elastic particles carry", "e_e = E_e/E", "A section 5.4"
+    ),
+    "reduced_pressure": Variable("1", f"reduced pressure {_INTERVAL}", "P_0 = P V/E", "A Eq. 16"),
+    **{
+        f"collisional_stress_{a}{b}": Variable(
+            "1",
+            f"collisional stress, component {a}{b}, times V/E, {_INTERVAL}",
+            f"sigma_{a}{b} V/E, P_0 = 1 + (sigma_xx + sigma_yy) V/(2 E)",
+            "A Eq. 15",
+        )
+        for a in "xy"
+        for b in "xy"
+    },
+    # clusters
+    "cluster_count": Variable("1", "number of clusters, single particles included", "I_c", "B Eq. 6"),
+    "mean_cluster_size": Variable("1", "mean number of particles in a cluster", "<M> = N/I_c", "B Eq. 7"),
+    "largest_cluster_size": Variable("1", "number of particles in the largest cluster", "M_max", "B section 5"),
+    "cluster_size_distribution": Variable("1", "number of clusters in the bin of sizes", "n(M)", "B section 6"),
+    # one value a particle
+    "position": Variable("m", "position of a particle in the box", "r_i"),
+    "trajectory": Variable("m", "position of a particle in the box at the sampling times", "r_i"),
+    "velocity": Variable("m s-1", "velocity of a particle in the frame of the centre of mass", "v_i"),
+    "initial_y": Variable("m", "position of a particle along y at t = 0", "y_i(0)", "B Fig. 6"),
+    "last_collision_time": Variable(
+        "s", "time of a particle's last collision, negative before dissipation began", "t_n^(i)", "A Eq. 4"
+    ),
+    "last_collision_interval": Variable(
+        "s", "time between the last two collisions of a particle", "t_n^(i)", "A Eq. 4"
+    ),
+    "collision_frequency": Variable("s-1", "collision frequency of a particle", "C_r^(i)", "A Fig. 10, B Fig. 5"),
+    # one value a run
+    "enskog_rate": Variable("s-1", "Enskog collision rate at t = 0", "1/t_E(0)", "A Eq. 19, B Eq. 2"),
+    "seed": Variable("1", "seed of the study's random numbers"),
+    "wall_time": Variable("s", "time that the run took"),
+    "cpu_time": Variable("s", "processor time that the run took, summed over its attempts"),
+    "events": Variable("1", "collisions of pairs that were carried out since t = 0", "C"),
+    "stop_reason": Variable(None, "what ended the run"),
+    "stop_time": Variable("s", "time at which the run ended", "t"),
+}
+
+
+def describe(dataset: xr.Dataset) -> xr.Dataset:
+    """The dataset with `units`, `long_name`, `symbol` and `equation` on every variable; other attributes stay.
+
+    Where `sampling_time` holds the times, `time` is described as an index.
+
+    Raises:
+        KeyError: a variable that is not in `VARIABLES`.
+    """
+    described = dataset.copy()
+    for name in described.variables:
+        if name not in VARIABLES:
+            raise KeyError(f"{name}: no such variable in the table of storage/variables.py")
+        variable = VARIABLES[name]
+        if name == "time" and "sampling_time" in described:
+            variable = Variable("1", "index of the sample")
+        described[name].attrs.update(variable.attributes())
+    return described

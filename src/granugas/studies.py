@@ -1,0 +1,330 @@
+"""Studies: grids of runs as a configuration describes them, each run under an address that follows from its physics.
+
+Pure data and light: nothing here simulates, reads results or knows of the workflow.
+"""
+
+import ast
+import hashlib
+import itertools
+import json
+import math
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, fields
+from pathlib import Path, PurePath
+from typing import Any
+
+from granugas.configuration import MISSING, ConfigError, check_structure, unknown, with_defaults
+from granugas.scene import SCENE_KEYS, Scene, SceneError
+
+DEFAULTS = {field.name: field.default for field in fields(Scene)}
+FLOAT_KEYS = {key for key, value in DEFAULTS.items() if isinstance(value, float)}
+GRID_KEYS = tuple(SCENE_KEYS[: SCENE_KEYS.index("lattice") + 1])
+"""Keys that every scene has; the others, effects, enter an address only where they are not the default."""
+
+START_KEYS = (*(key for key in SCENE_KEYS if key not in ("restitution", "contact_time", "dynamics")),)
+"""Keys that decide a start state."""
+
+START_SECONDS = 2.0
+SECONDS_PER_COLLISION = 1e-6
+"""What a job costs before its first collision, and each collision: to plan with."""
+
+OVERVIEW = "overview"
+"""Figure file that draws any study."""
+
+
+@dataclass(frozen=True)
+class Run:
+    """One realization of one point of a grid.
+
+    Attributes:
+        scene: what is simulated; at r = 1 with all contact times of its grid.
+        seed, realization: of the random stream.
+        until: limits, `time` in s and `collisions_per_particle`, either or both.
+        samples: `spacing`, `count`, `first` and `axis` of the sampling times.
+        snapshots: times in s, ascending.
+        equilibration: collisions per particle before the start state is judged.
+        keep_positions: whether positions at the sampling times are kept.
+    """
+
+    scene: Scene
+    seed: int
+    realization: int
+    until: Mapping[str, float]
+    samples: Mapping[str, Any]
+    snapshots: tuple[float, ...]
+    equilibration: float
+    keep_positions: bool
+
+    @property
+    def address(self) -> str:
+        """Name of the run's files: what people look for, then a digest of everything that decides the result."""
+        times = self.scene.contact_times
+        contact_time = f"{times[0]:g}" if len(times) == 1 else f"{len(times)}values"
+        name = f"{self._label}_r{self.scene.restitution:g}_tc{contact_time}_s{self.realization}"
+        content = {
+            "scene": {key: value for key, value in self.scene.as_dict().items() if _counts(key, value)},
+            "until": self.until,
+            "samples": self.samples,
+            "snapshots": self.snapshots,
+            "keep_positions": self.keep_positions,
+        }
+        kept = "_xy" if self.keep_positions else ""
+        return f"{name}_{digest_of(self._stream | content)}{kept}"
+
+    @property
+    def state_address(self) -> str:
+        """Name of the start state's file, which runs with other r, t_c or limits share."""
+        scene = self.scene.as_dict()
+        content = {key: scene[key] for key in START_KEYS if _counts(key, scene[key])}
+        return f"{self._label}_s{self.realization}_{digest_of(self._stream | {'scene': content})}"
+
+    @property
+    def _label(self) -> str:
+        return f"n{self.scene.n_particles}_nu{self.scene.area_fraction:g}"
+
+    @property
+    def _stream(self) -> dict[str, Any]:
+        return {"seed": self.seed, "realization": self.realization, "equilibration": self.equilibration}
+
+    @property
+    def cost(self) -> float:
+        """Expected s on one core: a particle collides tau times in an elastic gas, about 20 sqrt(tau) in clusters."""
+        nu, w = self.scene.area_fraction, self.scene.velocity_half_width
+        g = (1 - 7 * nu / 16) / (1 - nu) ** 2
+        rate = math.sqrt(4 / (3 * math.pi)) * w / (self.scene.diameter / 2) * 2 * nu * g
+        tau = rate * self.until.get("time", math.inf)
+        collisions = tau if self.scene.restitution == 1 else min(tau, 20 * math.sqrt(tau))
+        collisions = min(collisions, self.until.get("collisions_per_particle", math.inf))
+        return START_SECONDS + SECONDS_PER_COLLISION * self.scene.n_particles * collisions / 2
+
+
+@dataclass(frozen=True)
+class Study:
+    """A grid of runs.
+
+    Attributes:
+        name: of the study and its dataset.
+        grid_keys: the keys that the study's grid names, the dimensions of its dataset.
+        runs: each once, realizations of a point together.
+        distance_factors: S_c of its cluster analysis, ascending; empty for none.
+    """
+
+    name: str
+    grid_keys: tuple[str, ...]
+    runs: tuple[Run, ...]
+    distance_factors: tuple[float, ...]
+
+    def clusters(self) -> dict[str, Run]:
+        """The runs by the addresses of their cluster analyses, which name the S_c too."""
+        if not self.distance_factors:
+            return {}
+        suffix = f"sc{len(self.distance_factors)}_{digest_of(self.distance_factors)}"
+        return {f"{run.address}_{suffix}": run for run in self.runs}
+
+
+@dataclass(frozen=True)
+class Studies:
+    """Everything that a configuration asks for.
+
+    Attributes:
+        output: folder of the results.
+        studies: by name.
+        figures: the figures that can be built and the studies that each needs, overviews included.
+        wanted: names of those that the configuration asks for.
+        left_out: figures that `all` cannot build, with the studies that are missing.
+    """
+
+    output: str
+    studies: Mapping[str, Study]
+    figures: Mapping[str, tuple[str, ...]]
+    wanted: tuple[str, ...]
+    left_out: Mapping[str, tuple[str, ...]]
+
+    def runs(self) -> dict[str, Run]:
+        """Every run by its address; runs that studies share stand here once."""
+        return {run.address: run for study in self.studies.values() for run in study.runs}
+
+    def states(self) -> dict[str, Run]:
+        """For every start state one of the runs that begin with it."""
+        return {run.state_address: run for run in self.runs().values()}
+
+    def clusters(self) -> dict[str, tuple[Run, tuple[float, ...]]]:
+        """Every cluster analysis by its address: the run and its S_c."""
+        return {
+            address: (run, study.distance_factors)
+            for study in self.studies.values()
+            for address, run in study.clusters().items()
+        }
+
+
+def load(
+    config: Mapping[str, Any], schema: Mapping[str, Any], figures: Mapping[str, tuple[str, ...]] | None = None
+) -> Studies:
+    """Check a configuration and expand it.
+
+    Args:
+        config: as the YAML files give it.
+        schema: of its structure.
+        figures: the figures that there are and the studies that each needs, see `figures_in`.
+
+    Raises:
+        ConfigError: the first mistake, one line that names key, value and what is allowed.
+    """
+    check_structure(config, schema)
+    whole = with_defaults(config, schema)
+    piece = schema["$defs"]["study"]
+    studies = {
+        name: _study(name, with_defaults(block, piece), whole["seed"]) for name, block in whole["studies"].items()
+    }
+    figures = figures or {}
+    overviews = {f"study_{name}": (name,) for name in studies}
+    left_out = {name: tuple(n for n in needs if n not in studies) for name, needs in figures.items()}
+    left_out = {name: missing for name, missing in left_out.items() if missing}
+    possible = {name: needs for name, needs in figures.items() if name not in left_out}
+    if whole["figures"] == "all":
+        used = set(itertools.chain(*possible.values()))
+        wanted = (*possible, *(name for name, (study,) in overviews.items() if study not in used))
+    else:
+        wanted = _asked_for(whole["figures"], possible | overviews, left_out)
+        left_out = {}
+    return Studies(str(PurePath(whole["output"])), studies, possible | overviews, wanted, left_out)
+
+
+def figures_in(folder: Path) -> dict[str, tuple[str, ...]]:
+    """The figure files of a folder and the studies that each needs: its line `STUDIES = (...)`, read, not run.
+
+    Raises:
+        ConfigError: a file without that line.
+    """
+    files = [path for path in sorted(folder.glob("*.py")) if path.stem != OVERVIEW and path.stem[0] != "_"]
+    return {path.stem: _studies_of_figure(path) for path in files}
+
+
+def digest_of(content: Any) -> str:
+    """Twelve hexadecimal digits that are equal where numbers agree to 12 significant digits, 5 and 5.0 too."""
+    return hashlib.sha256(json.dumps(_canonical(content), sort_keys=True).encode()).hexdigest()[:12]
+
+
+def _study(name: str, block: Mapping[str, Any], seed: int) -> Study:
+    where = f"studies.{name}"
+    for key in block["scene"]:
+        if key in block["grid"]:
+            raise ConfigError(f"{where}.scene.{key}", block["scene"][key], f"allowed once, {where}.grid names it too")
+    until = {key: _rounded(value) for key, value in block["until"].items()}
+    snapshots = _ascending(f"{where}.snapshots", block.get("snapshots", ()))
+    if "time" in until and snapshots and snapshots[-1] > until["time"]:
+        allowed = f"allowed are times from 0 to {until['time']:g} s (until.time)"
+        raise ConfigError(f"{where}.snapshots", snapshots[-1], allowed)
+    factors = _ascending(f"{where}.distance_factors", block.get("distance_factors", ()))
+    common = {
+        "seed": seed,
+        "until": until,
+        "samples": _samples(f"{where}.samples", block["samples"], until),
+        "snapshots": snapshots,
+        "equilibration": _rounded(block["equilibration"]["collisions_per_particle"]),
+        "keep_positions": bool(factors),
+    }
+    runs = [
+        Run(scene=scene, realization=realization, **common)
+        for scene in _scenes(where, block["grid"], block["scene"])
+        for realization in range(block["realizations"])
+    ]
+    return Study(name, tuple(block["grid"]), tuple(runs), factors)
+
+
+def _scenes(where: str, grid: Mapping[str, Any], settings: Mapping[str, Any]) -> Iterator[Scene]:
+    """Every point of the grid; at r = 1 one scene holds all contact times."""
+    from granugas.initial import check_lattice
+
+    places = {key: f"{where}.grid.{key}" for key in SCENE_KEYS} | {key: f"{where}.scene.{key}" for key in settings}
+    axes = {key: _axis(places, key, value) for key, value in (grid | settings).items()}
+    times = axes.get("contact_time", (DEFAULTS["contact_time"],))
+    for point in itertools.product(*axes.values()):
+        values = DEFAULTS | dict(zip(axes, point, strict=True))
+        if values["restitution"] == 1 and len(times) > 1:
+            if values["contact_time"] != times[0]:
+                continue
+            values["contact_time"] = tuple(sorted(times))
+        scene = _said_here(places, Scene, **values)
+        _said_here(places, check_lattice, scene)
+        yield scene
+
+
+def _axis(places: Mapping[str, str], key: str, value: Any) -> tuple[Any, ...]:
+    """The values of a key of the grid, each one that a scene can have."""
+    given = value if isinstance(value, list) else [value]
+    values = [_rounded(item) if key in FLOAT_KEYS and type(item) in (int, float) else item for item in given]
+    for item in values:
+        _said_here(places, Scene, **{key: item})
+    return _distinct(places[key], values)
+
+
+def _said_here(places: Mapping[str, str], build: Callable[..., Any], *arguments: Any, **values: Any) -> Any:
+    """Call, and let a scene's error name the place in the configuration."""
+    try:
+        return build(*arguments, **values)
+    except SceneError as error:
+        raise ConfigError(places.get(error.key, error.key), error.value, error.allowed) from error
+
+
+def _samples(where: str, block: Mapping[str, Any], until: Mapping[str, float]) -> dict[str, Any]:
+    axis = block.get("axis", "time" if "time" in until else "collisions")
+    key = {"time": "time", "collisions": "collisions_per_particle"}[axis]
+    if key not in until:
+        raise ConfigError(f"{where}.axis", axis, f"allowed only where until.{key} is given")
+    limit, count = until[key], block["count"]
+    first = _rounded(block.get("first", limit / count if block["spacing"] == "linear" else limit * 1e-4))
+    if first >= limit:
+        raise ConfigError(f"{where}.first", first, f"allowed is a number > 0 and < {limit:g} (until.{key})")
+    return {"spacing": block["spacing"], "count": count, "first": first, "axis": axis}
+
+
+def _asked_for(
+    names: Sequence[str], possible: Mapping[str, Any], left_out: Mapping[str, Sequence[str]]
+) -> tuple[str, ...]:
+    for name in names:
+        if name in left_out:
+            missing = ", ".join(left_out[name])
+            raise ConfigError("figures", name, f"allowed where its studies are configured; {missing} is not")
+        if name not in possible:
+            raise unknown("figures", name, name, possible, kind="figure")
+    return _distinct("figures", names)
+
+
+def _studies_of_figure(path: Path) -> tuple[str, ...]:
+    for statement in ast.parse(path.read_text(encoding="utf-8"), str(path)).body:
+        if isinstance(statement, ast.Assign) and getattr(statement.targets[0], "id", "") == "STUDIES":
+            return tuple(ast.literal_eval(statement.value))
+    raise ConfigError(f"{path.name}: STUDIES", MISSING, "allowed is a tuple of names of studies, written out")
+
+
+def _ascending(where: str, values: Iterable[float]) -> tuple[float, ...]:
+    return tuple(sorted(_distinct(where, [_rounded(value) for value in values])))
+
+
+def _distinct(where: str, values: Sequence[Any]) -> tuple[Any, ...]:
+    for position, value in enumerate(values):
+        if value in values[:position]:
+            raise ConfigError(where, value, "this value stands twice; allowed is once")
+    return tuple(values)
+
+
+def _rounded(value: float) -> float:
+    """To 12 significant digits, so that runs of one address are equal in every bit."""
+    try:
+        return float(f"{float(value):.12g}")
+    except OverflowError:
+        return math.inf
+
+
+def _counts(key: str, value: Any) -> bool:
+    """Whether a key enters an address."""
+    return key in GRID_KEYS or value != DEFAULTS[key]
+
+
+def _canonical(value: Any) -> Any:
+    if isinstance(value, Mapping):
+        return {key: _canonical(item) for key, item in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_canonical(item) for item in value]
+    return f"{value:.12g}" if isinstance(value, float) else str(value)

@@ -1,0 +1,44 @@
+"""Observables of states whose answers are known."""
+
+import numpy as np
+import pytest
+
+from granugas.analysis import observables
+
+VELOCITY = np.array([[1.0, 0.0], [0.0, 2.0], [3.0, 0.0], [0.0, 0.0]])
+LAST = np.array([0.9, 0.5, 1.0, -np.inf])
+
+
+def test_kinetic_energy_by_axis():
+    np.testing.assert_array_equal(observables.kinetic_energy(VELOCITY), [5.0, 2.0])
+
+
+def test_anisotropy():
+    assert observables.anisotropy(VELOCITY) == pytest.approx(3 / 7)
+    assert observables.anisotropy(VELOCITY[:, ::-1]) == pytest.approx(-3 / 7)
+
+
+def test_kurtosis_of_known_distributions():
+    rng = np.random.default_rng(3)
+    maxwellian, uniform = rng.normal(size=200_000), rng.uniform(-1, 1, 200_000)
+    np.testing.assert_allclose(
+        observables.velocity_kurtosis(np.column_stack([maxwellian, uniform])), [3, 9 / 5], rtol=0.02
+    )
+
+
+def test_elastic_fractions():
+    """At t = 1 and t_c = .25 the particles 0 and 2 are elastic; they carry 10 of 14 parts of the energy."""
+    assert observables.elastic_particle_fraction(LAST, 1.0, 0.25) == 0.5
+    assert observables.elastic_energy_fraction(VELOCITY, LAST, 1.0, 0.25) == pytest.approx(10 / 14)
+
+
+def test_elastic_exactly_at_the_contact_time():
+    assert observables.elastic_particle_fraction(LAST, 1.0, 0.5) == 0.75
+
+
+def test_elastic_fractions_for_several_contact_times():
+    contact_times = [0.0, 0.25, 0.6]
+    n_e = observables.elastic_particle_fraction(LAST, 1.0, contact_times)
+    e_e = observables.elastic_energy_fraction(VELOCITY, LAST, 1.0, contact_times)
+    np.testing.assert_array_equal(n_e, [0, 0.5, 0.75])
+    np.testing.assert_allclose(e_e, [0, 10 / 14, 1])

@@ -1,0 +1,112 @@
+"""Logs that keep the reason, progress and the report of what failed."""
+
+import os
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+from granugas.jobs import Job, claim, failures, progress
+
+OLD, NOW = 1000.0, 2000.0
+
+
+def written(path: Path, text: str, when: float) -> Path:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(text)
+    os.utime(path, (when, when))
+    return path
+
+
+def script(code: str, log: Path) -> subprocess.CompletedProcess[str]:
+    text = f"from granugas.jobs import logged\nwith logged({str(log)!r}):\n    {code}\n"
+    return subprocess.run([sys.executable, "-c", text], capture_output=True, text=True)
+
+
+def is_running(pid: int) -> bool:
+    stat = Path(f"/proc/{pid}/stat")
+    return stat.exists() and stat.read_text().rpartition(")")[2].split()[0] != "Z"
+
+
+def test_all_output_goes_to_the_log(tmp_path: Path) -> None:
+    code = "import os, logging; print('said'); os.system('echo shell'); logging.getLogger('granugas.x').info('logged')"
+    done = script(code, tmp_path / "logs/job.log")
+    said = (tmp_path / "logs/job.log").read_text()
+    assert (done.stdout, done.stderr, done.returncode) == ("", "", 0)
+    assert all(word in said for word in ("said", "shell", "job: logged", "done"))
+
+
+def test_warnings_of_the_package_reach_the_terminal_too(tmp_path: Path) -> None:
+    code = "import logging; [logging.getLogger(name).warning('from ' + name) for name in ('granugas.x', 'other')]"
+    done = script(code, tmp_path / "job.log")
+    assert "from granugas.x" in done.stderr and "from other" not in done.stderr
+    assert "from granugas.x" in (tmp_path / "job.log").read_text()
+
+
+def test_an_error_is_the_last_line_of_the_log(tmp_path: Path) -> None:
+    done = script("raise ArithmeticError('no such gas')", tmp_path / "job.log")
+    assert done.returncode == 1
+    assert (tmp_path / "job.log").read_text().splitlines()[-1] == "ArithmeticError: no such gas"
+
+
+def test_a_job_dies_with_the_process_that_started_it(tmp_path: Path) -> None:
+    log = tmp_path / "job.log"
+    job = f"from granugas.jobs import logged\nwith logged({str(log)!r}):\n    import time; time.sleep(60)"
+    start = f"import subprocess, sys; job = subprocess.Popen([sys.executable, '-c', {job!r}])"
+    command = [sys.executable, "-c", f"{start}; print(job.pid, flush=True); job.wait()"]
+    parent = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
+    pid = int(parent.stdout.readline())
+    while not log.exists():
+        time.sleep(0.02)
+    parent.kill()
+    parent.wait()
+    end = time.monotonic() + 5
+    while is_running(pid):
+        assert time.monotonic() < end
+        time.sleep(0.02)
+
+
+def test_a_folder_is_claimed_by_one_process(tmp_path: Path) -> None:
+    claim(tmp_path / "results")
+    code = f"from granugas.jobs import claim; claim({str(tmp_path / 'results')!r})"
+    second = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert second.returncode == 1 and "BlockingIOError" in second.stderr
+
+
+def test_claiming_removes_what_killed_jobs_left(tmp_path: Path) -> None:
+    left = written(tmp_path / "runs/.n42_r0.4.nc.123", "half", OLD)
+    kept = [written(tmp_path / name, "whole", OLD) for name in ("runs/n42_r0.4.nc", "runs/.hidden.nc")]
+    claim(tmp_path)
+    assert not left.exists()
+    assert all(path.exists() for path in kept)
+
+
+def test_progress_counts_the_expected_work(tmp_path: Path) -> None:
+    long = Job(
+        "simulate", (tmp_path / "long.nc",), written(tmp_path / "long.log", "start\n12:00 t = 1 s, 40 % done\n", NOW)
+    )
+    done = Job("simulate", (written(tmp_path / "done.nc", "", NOW),), None)
+    waits = Job("simulate", (written(tmp_path / "old.nc", "", OLD),), written(tmp_path / "old.log", "99 %\n", OLD))
+    line = progress({long: 50.0, done: 20.0, waits: 30.0}, since=1500.0, now=1560.0)
+    assert line == "1 of 3 runs, 40% of the expected work, 1.0 min so far, about 1.5 min to go"
+
+
+def test_before_anything_is_done_no_end_is_foretold(tmp_path: Path) -> None:
+    line = progress({Job("simulate", (tmp_path / "a.nc",), None): 1.0}, since=NOW, now=NOW + 5)
+    assert line == "0 of 1 runs, 0% of the expected work, 5 s so far"
+
+
+def test_the_report_names_what_is_missing_and_why(tmp_path: Path) -> None:
+    reason = "Traceback ...\nValueError: too dense\n\n"
+    failed = Job("simulate", (tmp_path / "runs/bad.nc",), written(tmp_path / "bad.log", reason, NOW))
+    good = Job("simulate", (written(tmp_path / "runs/good.nc", "", NOW),), written(tmp_path / "good.log", "done", NOW))
+    old = Job("pool", (written(tmp_path / "studies/old.nc", "", OLD),), written(tmp_path / "pool.log", "done", OLD))
+    figure = Job("figure_x", (tmp_path / "x.png", tmp_path / "x.pdf"), tmp_path / "x.log")
+    said = failures([failed, good, old, figure, Job("all", (), None)], since=1500.0, finals=["figure", "pool"])
+    assert said.splitlines() == [
+        "Missing or out of date:",
+        f"  {tmp_path}/studies/old.nc",
+        f"  {tmp_path}/x.png",
+        "Because of:",
+        f"  simulate bad: ValueError: too dense (log: {tmp_path}/bad.log)",
+    ]

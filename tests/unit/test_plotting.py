@@ -1,0 +1,221 @@
+"""The drawings that figures share, and every figure on made-up studies: full grids, small ones, single runs."""
+
+import runpy
+import subprocess
+import sys
+from pathlib import Path
+
+import matplotlib as mpl
+import numpy as np
+import pytest
+import xarray as xr
+from matplotlib import style
+from matplotlib.colors import to_rgb
+from matplotlib.figure import Figure
+
+from granugas import plotting
+from granugas.analysis import theory
+from granugas.analysis.statistics import fit_power_law
+
+FIGURES = Path(__file__).parents[2] / "workflow" / "figures"
+NAMES = sorted(path.stem for path in FIGURES.glob("*.py"))
+
+
+def study(realizations=2, clusters=False, **grid):
+    """A pooled dataset over a grid: homogeneous cooling with some scatter, and clusters that grow as t^.3."""
+    rng = np.random.default_rng(1)
+    grid = {"n_particles": [100], "restitution": [0.4], "contact_time": [1e-5]} | grid
+    shape = (*(len(values) for values in grid.values()), realizations)
+    time = np.concatenate([[0], np.geomspace(1e-3, 446.6, 60)])
+    dims = (*grid, "realization", "time")
+    tau = np.broadcast_to(445 * time, (*shape, len(time)))
+    energy = theory.homogeneous_cooling(tau, 0.4) * np.exp(0.05 * rng.normal(size=(*shape, 1)) * (time > 0))
+    collisions = theory.collisions_until(tau, 0.4)
+    data = xr.Dataset(
+        {
+            "tau": (dims, tau),
+            "kinetic_energy": (dims, energy),
+            "collisions_per_particle": (dims, collisions),
+            "elastic_collisions_per_particle": (dims, 0.01 * collisions),
+        },
+        coords=grid | {"time": time, "realization": np.arange(realizations)},
+        attrs={"area_fraction": 0.25},
+    )
+    if clusters:
+        factors = np.array([1.05, 1.1, 1.2, 1.3, 1.4])
+        sizes = (1 + time) ** 0.3 * factors[:, np.newaxis] * np.exp(0.02 * rng.normal(size=(*shape, 1, 1)))
+        over = (*dims[:-1], "distance_factor", "time")
+        data = data.assign(
+            mean_cluster_size=(over, sizes), cluster_count=(over, 100 / sizes), largest_cluster_size=(over, sizes**2)
+        ).assign_coords(distance_factor=factors)
+    return data
+
+
+def needed_by(studies, realizations, contact_times):
+    return {
+        name: study(realizations, clusters=True)
+        if name.startswith("cluster1999")
+        else study(realizations, contact_time=contact_times)
+        if name == "tc1998_contact_times"
+        else study(realizations, n_particles=[100 + index])
+        for index, name in enumerate(studies)
+    }
+
+
+def texts(figure):
+    """All words of a figure's legends."""
+    legends = [axes.get_legend() for axes in figure.axes] + figure.legends
+    return [text.get_text() for legend in legends if legend for text in [legend.get_title(), *legend.get_texts()]]
+
+
+@pytest.mark.parametrize(("realizations", "contact_times"), [(1, [1e-5]), (3, [1e-12, 1e-5, 1e-3, 1e-2])])
+@pytest.mark.parametrize("name", NAMES)
+def test_every_figure_draws(name, realizations, contact_times, tmp_path):
+    figure_file = runpy.run_path(str(FIGURES / f"{name}.py"))
+    studies = figure_file["STUDIES"] or ("tc1998_contact_times",)
+    figure = figure_file["draw"](needed_by(studies, realizations, contact_times))
+    plotting.save(figure, tmp_path / "figure.png")
+    assert (tmp_path / "figure.png").stat().st_size > 10_000
+    assert all(axes.get_xscale() == "log" and axes.lines for axes in figure.axes)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_figures_are_short_and_have_a_caption(name):
+    assert len((FIGURES / f"{name}.py").read_text().splitlines()) <= 60
+    assert len((FIGURES.parent / "report" / f"{name}.rst").read_text()) > 100
+
+
+def test_fig08_names_the_sizes_that_there_are():
+    figure_file = runpy.run_path(str(FIGURES / "tc1998_fig08.py"))
+    data = needed_by(figure_file["STUDIES"], 2, [1e-5])
+    figure = figure_file["draw"](data)
+    assert texts(figure)[1:] == [*(f"$N = {n}$" for n in range(105, 99, -1)), "Eq. (23)"]
+    assert len(figure.axes[0].collections) == 6
+    tau, theory_line = figure.axes[0].lines[-1].get_data()
+    np.testing.assert_allclose(theory_line, theory.homogeneous_cooling(tau, 0.4))
+
+
+def test_fig7_gives_window_exponents_and_intervals():
+    figure_file = runpy.run_path(str(FIGURES / "cluster1999_fig7.py"))
+    data = study(4, clusters=True)
+    words = texts(figure_file["draw"]({"cluster1999_large": data}))
+    sizes = data["mean_cluster_size"].squeeze().sel(distance_factor=1.2)
+    fit = fit_power_law(data["time"], sizes, figure_file["WINDOW"])
+    assert sum("1 to 40 s" in word and "95 %" in word and "4 runs" in word for word in words) == 2
+    assert f"$1.2$: {plotting.exponent(fit)}" in words
+    alone = texts(figure_file["draw"]({"cluster1999_large": study(1, clusters=True)}))
+    assert not any(r"\pm" in word for word in alone)
+    assert sum("no interval" in word for word in alone) == 2
+
+
+def test_overview_tells_the_points_of_a_grid_apart():
+    draw = runpy.run_path(str(FIGURES / "overview.py"))["draw"]
+    figure = draw({"mine": study(2, clusters=True, n_particles=[50, 100], restitution=[0.4, 0.8])})
+    assert len(figure.axes) == 4
+    assert "$N$ = $50$, $r$ = $0.8$" in texts(figure)
+    assert "$S_c = 1.05$" in texts(figure)
+    assert len(draw({"mine": study(1)}).axes) == 2
+
+
+@pytest.mark.parametrize("ending", ["png", "pdf", "svg"])
+def test_equal_figures_give_equal_files(ending, tmp_path):
+    for name in ("one", "two"):
+        figure = Figure()
+        plotting.band(figure.add_subplot(xscale="log", yscale="log"), *curves())
+        plotting.save(figure, tmp_path / "new" / f"{name}.{ending}")
+    one, two = ((tmp_path / "new" / f"{name}.{ending}").read_bytes() for name in ("one", "two"))
+    assert one == two
+    assert b"Date" not in one and b"matplotlib.org" not in one[-500:]
+
+
+def test_style_is_in_force_while_drawing_only():
+    before = mpl.rcParams["xtick.direction"]
+    drawn = plotting.styled(lambda data: mpl.rcParams["xtick.direction"])({})
+    assert (before, drawn, mpl.rcParams["xtick.direction"]) == ("out", "in", "out")
+
+
+def test_style_is_for_everybody():
+    """No two colours of the cycle are as close in brightness and hue as grey prints or colour blindness confuse."""
+    with style.context(plotting.STYLE):
+        cycle = mpl.rcParams["axes.prop_cycle"].by_key()["color"]
+    assert len(set(cycle)) == 7
+    brightness = [np.dot([0.2126, 0.7152, 0.0722], to_rgb(colour)) for colour in plotting.shades(9)]
+    assert (np.diff(brightness) > 0.03).all()
+
+
+def test_pyplot_is_not_needed():
+    code = "import sys, granugas.plotting; sys.exit('matplotlib.pyplot' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", code]).returncode == 0
+
+
+def curves(values=((1.0, 2.0, 4.0, 8.0), (1.0, 8.0, 16.0, np.nan))):
+    x = xr.DataArray([0.0, 1.0, 2.0, 3.0], dims="time")
+    return x, xr.DataArray(np.array(values), dims=("realization", "time"))
+
+
+def test_band_on_logarithmic_axes():
+    """The geometric mean and the range, without t = 0 and up to the first end."""
+    axes = Figure().add_subplot(xscale="log", yscale="log")
+    line = plotting.band(axes, *curves(), color="C1")
+    np.testing.assert_allclose(line.get_data(), [[1, 2], [4, 8]])
+    (fill,) = axes.collections
+    assert {2.0, 8.0, 4.0, 16.0} == set(fill.get_paths()[0].vertices[:, 1])
+
+
+def test_band_on_linear_axes():
+    axes = Figure().add_subplot()
+    line = plotting.band(axes, *curves(), spread=False)
+    np.testing.assert_allclose(line.get_data(), [[0, 1, 2], [1, 5, 10]])
+    assert not axes.collections
+
+
+def test_band_of_one_realization_is_a_line():
+    axes = Figure().add_subplot()
+    plotting.band(axes, *curves([[1.0, 2.0, 3.0, 4.0]]))
+    assert not axes.collections
+
+
+def test_power_line():
+    figure = Figure()
+    axes = figure.add_subplot(xscale="log", yscale="log")
+    curve = plotting.band(axes, *curves([[1.0, 2.0, 4.0, 8.0]]))
+    plotting.power_line(curve, (1, 3), -2, 10, "slope")
+    x, y = axes.lines[-1].get_data()
+    assert (x[0], x[-1], y[0]) == (1, 3, 20)
+    assert y[-1] / y[0] == pytest.approx(3.0**-2)
+
+
+def test_grid_points():
+    data = study(3, n_particles=[42, 378], restitution=[0.4, 0.8])
+    data["kinetic_energy"] = data["kinetic_energy"].copy()
+    data["kinetic_energy"].loc[{"n_particles": 42, "restitution": 0.8}] = np.nan
+    data["kinetic_energy"].loc[{"n_particles": 378, "realization": 1}] = np.nan
+    data["kinetic_energy"].loc[{"n_particles": 42, "restitution": 0.4, "realization": 2, "time": slice(9, None)}] = (
+        np.nan
+    )
+    found = list(plotting.grid_points(data))
+    assert [(key["n_particles"], key["restitution"]) for key, _ in found] == [(42, 0.4), (378, 0.4), (378, 0.8)]
+    assert found[0][0]["area_fraction"] == 0.25
+    assert [runs.sizes["realization"] for _, runs in found] == [3, 2, 2]
+    assert found[0][1]["tau"].dims == ("realization", "time")
+
+
+def test_times_of_runs_that_ended_by_collisions():
+    data = study(2).squeeze()
+    assert plotting.times(data).identical(data["time"])
+    numbered = data.assign(sampling_time=(("realization", "time"), [data["time"].values, 3 * data["time"].values]))
+    np.testing.assert_allclose(plotting.times(numbered), 2 * data["time"])
+
+
+def test_words():
+    assert [plotting.power_of_ten(t) for t in (0, 1e-12, 5e-4, 1.5e-3)] == [
+        "$0$",
+        "$10^{-12}$",
+        r"$5\times10^{-4}$",
+        r"$1.5\times10^{-3}$",
+    ]
+    points = [{"n_particles": 97776, "contact_time": 1e-5, "lattice": lattice} for lattice in ("auto", "square")]
+    assert plotting.point_names(points) == ["lattice = auto", "lattice = square"]
+    points[0]["n_particles"], points[1]["contact_time"] = 42, 0.0
+    assert plotting.point_names(points)[0] == "$N$ = $42$, $t_c$ = $10^{-5}$, lattice = auto"
+    assert plotting.point_names(points)[1] == "$N$ = $97776$, $t_c$ = $0$, lattice = square"

@@ -1,0 +1,28 @@
+"""The reduced grid goes through the whole chain, and its datasets keep to physics."""
+
+import pytest
+import yaml
+from workflow.project import ROOT, Project
+
+from granugas.studies import figures_in
+
+FULL, REDUCED = (ROOT / f"config/{name}.yaml" for name in ("config", "reduced"))
+
+
+@pytest.mark.timeout(600)
+def test_the_preview_builds_every_figure_and_keeps_to_physics(project: Project) -> None:
+    said = project.build("--configfile", FULL, REDUCED, "--", "all", "check")
+    preview = project.folder / "results/preview"
+    figures = figures_in(ROOT / "workflow/figures")
+    expected = {f"{name}.{kind}" for name in figures for kind in ("png", "pdf")}
+    assert {path.name for path in preview.glob("figures/*")} >= expected
+    studies = yaml.safe_load(FULL.read_text())["studies"]
+    assert {path.stem for path in preview.glob("studies/*.nc")} == set(studies)
+    assert (preview / "checks.txt").read_text() == f"{len(studies)} studies, no finding\n"
+    assert "the figures in results/preview/figures" in said
+
+
+def test_the_preview_has_every_study_and_none_at_full_size() -> None:
+    full, reduced = (yaml.safe_load(path.read_text()) for path in (FULL, REDUCED))
+    assert set(reduced["studies"]) == set(full["studies"])
+    assert reduced["output"] != full["output"]

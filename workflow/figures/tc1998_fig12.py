@@ -1,0 +1,34 @@
+"""tc1998 Fig. 12: energy against time for nine contact times, and homogeneous cooling."""
+
+import numpy as np
+import xarray as xr
+from matplotlib.figure import Figure
+
+from granugas.analysis.theory import homogeneous_cooling
+from granugas.plotting import THEORY, band, grid_points, only_decades, power_of_ten, shades, styled
+
+STUDIES = ("tc1998_contact_times",)
+
+
+@styled
+def draw(data: dict[str, xr.Dataset]) -> Figure:
+    """T against tau for each t_c; the inset is the end of the curves, Eq. 23 dashed."""
+    figure = Figure(figsize=(4.6, 3.3))
+    axes = figure.add_subplot(xscale="log", yscale="log", xlabel=r"$\tau$", ylabel=r"$T$")
+    inset = axes.inset_axes([0.1, 0.1, 0.42, 0.42], xscale="log", yscale="log")
+    points = sorted(grid_points(data[STUDIES[0]]), key=lambda point: -point[0]["contact_time"])
+    for (key, runs), colour in zip(points, reversed(shades(len(points))), strict=True):
+        band(axes, runs["tau"], runs["kinetic_energy"], color=colour, label=power_of_ten(key["contact_time"]))
+        band(inset, runs["tau"], runs["kinetic_energy"], color=colour, spread=False)
+    tau = np.geomspace(*axes.get_xlim(), 200)
+    theory = homogeneous_cooling(tau, points[0][0]["restitution"])
+    axes.plot(tau, theory, **THEORY, label="Eq. (23)")
+    inset.plot(tau, theory, **THEORY)
+    lowest = min(float(runs["kinetic_energy"].min()) for _, runs in points)
+    last = float(points[0][1]["tau"].max())
+    axes.set_xlim(tau[0], tau[-1])
+    inset.set(xlim=(last / 10, last), ylim=(lowest / 2, 40 * lowest))
+    inset.tick_params(labelsize=7)
+    only_decades(inset)
+    axes.legend(title=r"$t_c$ (s)", loc="upper left", bbox_to_anchor=(1, 1))
+    return figure

@@ -1,0 +1,56 @@
+# The checked configuration, and what the rules of the other files look up in it. No rules here.
+import sys
+import time
+from pathlib import Path
+
+import yaml
+
+from granugas import digest, studies
+from granugas.configuration import ConfigError, refuse_duplicate_keys
+from granugas.jobs import Job, claim, failures, tell_progress, warm_up
+
+HERE = Path(workflow.basedir)
+STARTED = time.time()
+
+try:
+    refuse_duplicate_keys([*workflow.configfiles, *(workflow.overwrite_configfiles or [])])
+    STUDIES = studies.load(
+        config,
+        schema=yaml.safe_load((HERE / "workflow/schemas/config.schema.yaml").read_text()),
+        figures=studies.figures_in(HERE / "workflow/figures"),
+    )
+except ConfigError as error:
+    sys.exit(f"configuration: {error}")
+
+OUTPUT = STUDIES.output
+STATES, RUNS, CLUSTERS = STUDIES.states(), STUDIES.runs(), STUDIES.clusters()
+DRAWINGS = studies.figures_in(HERE / "workflow/figures")
+STYLE = [digest.SOURCES / "plotting.py", digest.SOURCES / "granugas.mplstyle"]
+PHYSICS = digest.digest(digest.EVENTS)
+ANALYSIS = digest.digest(digest.ANALYSIS)
+FORMULAS = digest.digest(["granugas.analysis.*"])
+STORAGE = digest.digest(["granugas.storage.*"])
+
+if STUDIES.left_out and workflow.is_main_process:
+    for name, missing in STUDIES.left_out.items():
+        print(f"Left out: {name} needs {', '.join(missing)}, not in the configuration.", file=sys.stderr)
+
+
+def planned(dag):
+    """The jobs that Snakemake wants to run."""
+    return [
+        Job(job.rule.name, tuple(map(Path, job.output)), Path(job.log[0]) if job.log else None)
+        for job in dag.needrun_jobs()
+    ]
+
+
+def begin(jobs):
+    """One build at a time; compile before jobs run side by side; say how far the runs are."""
+    try:
+        claim(OUTPUT)
+    except BlockingIOError:
+        sys.exit(f"Another build is writing to {OUTPUT}: wait for its end, or choose another output.")
+    if any(job.rule.startswith(("equilibrate", "simulate", "clusters")) for job in jobs):
+        warm_up(f"{OUTPUT}/logs/warm_up.log")
+    simulations = {job: RUNS[job.outputs[0].stem].cost for job in jobs if job.rule.startswith("simulate")}
+    tell_progress(simulations, STARTED)

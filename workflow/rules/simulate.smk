@@ -1,0 +1,39 @@
+# Start states, and the runs that begin with them.
+
+
+rule equilibrate:
+    output:
+        f"{OUTPUT}/states/{{state}}.nc",
+    log:
+        f"{OUTPUT}/logs/equilibrate/{{state}}.log",
+    params:
+        run=lambda wildcards: STATES[wildcards.state],
+        physics=PHYSICS,
+    priority: lambda wildcards: STATES[wildcards.state].cost
+    script:
+        "../scripts/equilibrate.py"
+
+
+rule simulate:
+    input:
+        state=lambda wildcards: f"{OUTPUT}/states/{RUNS[wildcards.run].state_address}.nc",
+    output:
+        run=f"{OUTPUT}/runs/{{run}}.nc",
+        positions=f"{OUTPUT}/positions/{{run}}.nc",
+    log:
+        f"{OUTPUT}/logs/simulate/{{run}}.log",
+    params:
+        run=lambda wildcards: RUNS[wildcards.run],
+        physics=PHYSICS,
+    wildcard_constraints:
+        run=".+_xy",
+    priority: lambda wildcards: RUNS[wildcards.run].cost
+    script:
+        "../scripts/simulate.py"
+
+
+use rule simulate as simulate_without_positions with:
+    output:
+        run=f"{OUTPUT}/runs/{{run}}.nc",
+    wildcard_constraints:
+        run=".+(?<!_xy)",
