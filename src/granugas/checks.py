@@ -22,8 +22,7 @@ def findings(data: xr.Dataset) -> list[str]:
 
 def _complete(data: xr.Dataset) -> Iterator[str]:
     """A value at every sample until a run's end, none after it."""
-    times = data["sampling_time"] if "sampling_time" in data else data["time"]
-    alive = times <= data["stop_time"] * (1 + ROUNDING)
+    alive = _times(data) <= data["stop_time"] * (1 + ROUNDING)
     for name in ALWAYS:
         yield from _finding(name, "has no value", (data[name].isnull() & alive).astype(float))
         yield from _finding(name, "has a value after the end of the run", (data[name].notnull() & ~alive).astype(float))
@@ -54,10 +53,12 @@ def _counted(data: xr.Dataset) -> Iterator[str]:
     yield from _finding(COUNTS[1], "is more than all collisions", data[COUNTS[1]] - data[COUNTS[0]] * (1 + ROUNDING))
     for name in SHARES:
         yield from _finding(name, "is outside of 0 to 1", abs(data[name] - 0.5) - 0.5 - ROUNDING)
-    counted = 2 * data["events"] / _parameter(data, "n_particles")
-    apart = abs(counted - data[COUNTS[0]].max("time")).where(data["stop_reason"] != "inelastic_collapse")
-    yield from _finding("events", "differ from collisions_per_particle", apart - 1e-9 * counted - ROUNDING)
-    times = data["sampling_time"] if "sampling_time" in data else data["time"]
+    times = _times(data)
+    counted, sampled = 2 * data["events"] / _parameter(data, "n_particles"), data[COUNTS[0]].max("time")
+    last = times.where(data[COUNTS[0]].notnull()).max("time")
+    ends_with_sample = abs(last - data["stop_time"]) <= ROUNDING * data["stop_time"]
+    apart = (sampled - counted).where(~ends_with_sample, abs(sampled - counted))
+    yield from _finding("events", "differ from collisions_per_particle", apart - 1e-9 * counted)
     in_interval = data[COUNTS[0]].diff("time")
     apart = abs(data["collision_rate"] * times.diff("time") - in_interval) - 1e-9 * (1 + in_interval)
     yield from _finding("collision_rate", "does not add up to collisions_per_particle", apart)
@@ -74,6 +75,11 @@ def _clusters(data: xr.Dataset) -> Iterator[str]:
     yield from _finding("largest_cluster_size", "is more than N", largest - n)
     binned = data["cluster_size_distribution"].sum("cluster_size", skipna=False)
     yield from _finding("cluster_size_distribution", "does not add up to cluster_count", abs(binned - count) - ROUNDING)
+
+
+def _times(data: xr.Dataset) -> xr.DataArray:
+    """Times of the samples in s."""
+    return data["sampling_time"] if "sampling_time" in data else data["time"]
 
 
 def _parameter(data: xr.Dataset, key: str) -> xr.DataArray:

@@ -118,32 +118,38 @@ def test_an_unknown_module_is_refused(name):
         digest([name])
 
 
-@pytest.mark.parametrize("modules", [sources.EVENTS, sources.ANALYSIS, sources.KERNELS])
+@pytest.mark.parametrize("modules", [sources.EVENTS, sources.ANALYSIS])
 def test_what_decides_numbers_is_covered(modules):
     """Whatever a covered module imports of the package is covered too, or decides no number."""
     covered = {name for module in modules for name, _ in sources._source_files(module)}
     free = ("storage/", "digest.py", "dynamics/__init__.py", "analysis/__init__.py", "__init__.py")
-    if modules is sources.KERNELS:
-        free += ("scene.py",)
-    missing = {
-        imported
-        for name in covered
-        for imported in imports(sources.SOURCES / name)
-        if imported not in covered and not imported.startswith(free)
-    }
-    assert missing == set()
+    imported = set().union(*(imports(sources.SOURCES / name) for name in covered))
+    assert {name for name in imported - covered if not name.startswith(free)} == set()
 
 
-def imports(path: Path) -> set[str]:
-    """Files of the package that a module imports."""
+def test_every_compiled_function_is_covered():
+    compiled = {"numba", "granugas.dynamics.events.composition"}
+    paths = [path for path in sources.SOURCES.rglob("*.py") if not compiled.isdisjoint(names_imported(path))]
+    assert paths
+    covered = {path for module in sources.KERNELS for _, path in sources._source_files(module)}
+    assert set(paths) <= covered
+
+
+def names_imported(path: Path) -> set[str]:
+    """Full names that a module imports, of modules or of what is in them."""
     names = set()
     for node in ast.walk(ast.parse(path.read_text())):
         if isinstance(node, ast.Import):
             names |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom) and node.module:
             names |= {node.module, *(f"{node.module}.{alias.name}" for alias in node.names)}
+    return names
+
+
+def imports(path: Path) -> set[str]:
+    """Files of the package that a module imports."""
     found = set()
-    for name in names:
+    for name in names_imported(path):
         if name.split(".")[0] == "granugas":
             place = sources.SOURCES.joinpath(*name.split(".")[1:])
             found |= {p for p in (place.with_suffix(".py"), place / "__init__.py") if p.is_file()}

@@ -3,7 +3,7 @@
 from granugas.jobs import logged
 
 with logged(snakemake.log[0]):
-    from granugas.simulate import equilibrate
+    from granugas.equilibrate import equilibrate
     from granugas.storage.dataset import write
 
     run = snakemake.params.run

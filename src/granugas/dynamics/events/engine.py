@@ -14,7 +14,7 @@ from granugas.dynamics.events.effects.constant import Constant, Elastic
 from granugas.dynamics.events.effects.contact_time import ContactTime
 from granugas.dynamics.events.effects.elastic_share import SHARES, ElasticShare
 from granugas.dynamics.events.effects.nobody import Nobody
-from granugas.dynamics.events.memory import Table
+from granugas.dynamics.events.memory import Record, Table
 from granugas.dynamics.state import State
 from granugas.scene import Scene
 
@@ -59,7 +59,7 @@ class Tally:
 class Engine:
     """Event-driven dynamics of one scene.
 
-    The dynamics do not depend on when or how often they are looked at: `advance` stops between two events, and `state`
+    `arrays` is the whole state, calendar included; `resume` continues from a copy of it bit for bit. The dynamics do not depend on when or how often they are looked at: `advance` stops between two events, and `state`
     only reads.
     """
 
@@ -69,8 +69,9 @@ class Engine:
         self.box = state.box
         self.rule = rule_of(scene) if rule is None else rule
         self.watch = watch_of(scene) if watch is None else watch
-        self.arrays = _arrays(state, scene.diameter)
-        self._gas = layout.bundle(self.arrays, self.rule, self.watch)
+        tables = _arrays(state, scene.diameter)
+        self.arrays = tables | _rows_of("rule", self.rule) | _rows_of("watch", self.watch)
+        self._gas = layout.bundle(tables, self.rule, self.watch)
         loop.start(self._gas)
 
     @classmethod
@@ -79,8 +80,11 @@ class Engine:
         engine = cls.__new__(cls)
         engine.scene, engine.box = scene, box
         engine.rule, engine.watch = rule_of(scene), watch_of(scene)
-        engine.arrays = {name: rows.copy() for name, rows in arrays.items()}
-        engine._gas = layout.bundle(engine.arrays, engine.rule, engine.watch)
+        tables = {name: arrays[name].copy() for name in layout.LAYOUTS}
+        engine.arrays = tables | _rows_of("rule", engine.rule) | _rows_of("watch", engine.watch)
+        for name in engine.arrays.keys() - tables.keys():
+            engine.arrays[name][:] = arrays[name]
+        engine._gas = layout.bundle(tables, engine.rule, engine.watch)
         return engine
 
     @property
@@ -175,6 +179,11 @@ def rule_of(scene: Scene) -> Any:
 def watch_of(scene: Scene) -> Any:
     """Only disks that dissipate without a contact duration can collapse."""
     return collapse_watch() if scene.restitution < 1 and not any(scene.contact_times) else Nobody()
+
+
+def _rows_of(role: str, effect: Any) -> dict[str, np.ndarray]:
+    """The arrays behind the tables of an effect, which belong to the state of the engine."""
+    return {f"{role}.{name}": part.rows for name, part in effect._asdict().items() if isinstance(part, Table | Record)}
 
 
 def _arrays(state: State, diameter: float) -> dict[str, np.ndarray]:
