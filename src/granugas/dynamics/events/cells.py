@@ -38,19 +38,33 @@ def leave_cell(gas, i):
 
 
 @inline
-def list_heads(gas, i, columns, rows):
-    """Write the first disk of each cell of a block around disk i into `near`, with the cell's offset; how many there are.
-
-    columns, rows: first and last offset of the block, in -1 ... 1.
-    """
-    disks, near, grid = gas.disks, gas.near, gas.grid
+def list_around(gas, i):
+    """Write the first disk of each of the nine cells around disk i into `near`, with the cell's offset; how many there are."""
+    near, head = gas.near, gas.cells.head
+    nx, ny, width_x, width_y = gas.grid.nx, gas.grid.ny, gas.grid.width_x, gas.grid.width_y
+    cx, cy = gas.disks.cx[i], gas.disks.cy[i]
     n = 0
-    for dy in range(rows[0], rows[1] + 1):
-        row = wrapped(disks.cy[i] + dy, grid.ny) * grid.nx
-        for dx in range(columns[0], columns[1] + 1):
-            head = gas.cells.head[row + wrapped(disks.cx[i] + dx, grid.nx)]
-            near.disk[n], near.x[n], near.y[n] = head, dx * grid.width_x, dy * grid.width_y
-            n += head != NOBODY
+    for dy in range(-1, 2):
+        row = wrapped(cy + dy, ny) * nx
+        for dx in range(-1, 2):
+            first = head[row + wrapped(cx + dx, nx)]
+            near.disk[n], near.x[n], near.y[n] = first, dx * width_x, dy * width_y
+            n += first != NOBODY  # an empty cell's entry is overwritten: cheaper than a branch
+    return n
+
+
+@inline
+def list_ahead(gas, i, step_x, step_y):
+    """The same for the three cells ahead of a disk that has just taken a step, (+-1, 0) or (0, +-1), to its cell."""
+    near, head = gas.near, gas.cells.head
+    nx, ny, width_x, width_y = gas.grid.nx, gas.grid.ny, gas.grid.width_x, gas.grid.width_y
+    cx, cy = gas.disks.cx[i], gas.disks.cy[i]
+    n = 0
+    for k in range(-1, 2):
+        dx, dy = step_x + k * step_y * step_y, step_y + k * step_x * step_x
+        first = head[wrapped(cy + dy, ny) * nx + wrapped(cx + dx, nx)]
+        near.disk[n], near.x[n], near.y[n] = first, dx * width_x, dy * width_y
+        n += first != NOBODY
     return n
 
 

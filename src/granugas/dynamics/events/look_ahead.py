@@ -5,12 +5,10 @@ the one before has brought: the disks of the bin; their partners and the lists o
 cells. Nothing is computed here, and nothing depends on it. It pays where the tables outgrow the cache (engine.py decides).
 """
 
-from granugas.dynamics.events.cells import list_heads
+from granugas.dynamics.events.cells import list_around
 from granugas.dynamics.events.composition import inline
 from granugas.dynamics.events.memory import prefetch
 from granugas.dynamics.events.state import NOBODY, SLOTS
-
-AROUND = (-1, 1)
 
 
 @inline
@@ -52,6 +50,6 @@ def _fetch_cells(gas, b):
 def _fetch_neighbours(gas, b):
     if b < gas.calendar.n_bins:
         for slot in range(b * SLOTS + 1, b * SLOTS + 1 + gas.bins.entry[b * SLOTS]):
-            n = list_heads(gas, gas.bins.entry[slot], AROUND, AROUND)
+            n = list_around(gas, gas.bins.entry[slot])
             for k in range(n):
                 prefetch(gas.disks.x, gas.near.disk[k])

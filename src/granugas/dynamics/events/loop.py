@@ -3,14 +3,13 @@
 import math
 
 from granugas.dynamics.events.calendar import next_event, refresh_if_full
-from granugas.dynamics.events.cells import enter_cell, leave_cell, wrapped
+from granugas.dynamics.events.cells import enter_cell, leave_cell, list_ahead, list_around, wrapped
 from granugas.dynamics.events.collisions import collide
 from granugas.dynamics.events.composition import generic, inline, kernel
 from granugas.dynamics.events.flight import exit_distances, leaves_through_x, position
 from granugas.dynamics.events.predict import look_around, plan
 from granugas.dynamics.events.state import NOBODY
 
-AROUND = (-1, 1)
 TIME, COLLISIONS, EVENTS, WATCH = 0, 1, 2, 3
 """Why the loop ended: no event is left up to `calendar.until`, a number was reached, or the watch called."""
 
@@ -47,7 +46,7 @@ def run(gas, most_collisions, most_events):
         _forget(gas, i)
         while i != NOBODY:
             x, y = position(gas, i, now)
-            look_around(gas, i, x, y, now, AROUND, AROUND)
+            look_around(gas, i, x, y, now, list_around(gas, i))
             plan(gas, i, x, y, now)
             i, j = j, NOBODY
         if called:
@@ -69,24 +68,19 @@ def _cross(gas, i, now):
     disks, grid = gas.disks, gas.grid
     x, y = position(gas, i, now)
     to_x, to_y = exit_distances(gas, i, x, y)
+    through_x = leaves_through_x(gas, i, to_x, to_y)
+    step_x = (1 if disks.vx[i] > 0.0 else -1) * through_x
+    step_y = (1 if disks.vy[i] > 0.0 else -1) * (not through_x)
     leave_cell(gas, i)
-    columns, rows = AROUND, AROUND
-    if leaves_through_x(gas, i, to_x, to_y):
-        step = 1 if disks.vx[i] > 0.0 else -1
-        disks.cx[i] = wrapped(disks.cx[i] + step, grid.nx)
-        disks.x[i] -= step * grid.width_x
-        x -= step * grid.width_x
-        columns = (step, step)
-    else:
-        step = 1 if disks.vy[i] > 0.0 else -1
-        disks.cy[i] = wrapped(disks.cy[i] + step, grid.ny)
-        disks.y[i] -= step * grid.width_y
-        y -= step * grid.width_y
-        rows = (step, step)
+    disks.cx[i] = wrapped(disks.cx[i] + step_x, grid.nx)
+    disks.cy[i] = wrapped(disks.cy[i] + step_y, grid.ny)
+    shift_x, shift_y = step_x * grid.width_x, step_y * grid.width_y
+    disks.x[i] -= shift_x
+    disks.y[i] -= shift_y
     enter_cell(gas, i)
     gas.tally.crossings += 1
-    look_around(gas, i, x, y, now, columns, rows)
-    plan(gas, i, x, y, now)
+    look_around(gas, i, x - shift_x, y - shift_y, now, list_ahead(gas, i, step_x, step_y))
+    plan(gas, i, x - shift_x, y - shift_y, now)
 
 
 @kernel
@@ -99,5 +93,5 @@ def start(gas):
         enter_cell(gas, i)
     for i in range(n):
         x, y = position(gas, i, now)
-        look_around(gas, i, x, y, now, AROUND, AROUND)
+        look_around(gas, i, x, y, now, list_around(gas, i))
         plan(gas, i, x, y, now)

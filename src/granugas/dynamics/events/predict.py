@@ -8,7 +8,7 @@ happens before, and looks around again at that time, if nobody has found it by t
 import math
 
 from granugas.dynamics.events.calendar import cancel, schedule
-from granugas.dynamics.events.cells import list_heads, list_next
+from granugas.dynamics.events.cells import list_next
 from granugas.dynamics.events.composition import inline
 from granugas.dynamics.events.flight import exit_time
 from granugas.dynamics.events.state import NOBODY
@@ -38,18 +38,16 @@ def contact_delay(rx, ry, ux, uy, speed_2, longest):
 
 
 @inline
-def look_around(gas, i, x, y, now, columns, rows):
-    """Find the next collision of disk i, at (x, y) now, among the cells of a block around its own; write it into both.
+def look_around(gas, i, x, y, now, n):
+    """Find the next collision of disk i, at (x, y) now, in the n cells listed in `near`; write it into both partners.
 
-    columns, rows: first and last offset of the block, in -1 ... 1. A collision counts only if it comes before the next
-    known one of either partner.
+    A collision counts only if it comes before the next known one of either partner.
     """
     disks, near = gas.disks, gas.near
     vx, vy = disks.vx[i], disks.vy[i]
     speed_2 = vx * vx + vy * vy
     earliest = disks.t_coll[i]
     found = NOBODY
-    n = list_heads(gas, i, columns, rows)
     k = 0
     while k < n:
         j = near.disk[k]
