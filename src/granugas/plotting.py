@@ -16,7 +16,7 @@ from matplotlib import style
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.ticker import NullFormatter
+from matplotlib.ticker import LogLocator, NullFormatter
 
 from granugas.analysis.statistics import PowerLaw
 
@@ -132,11 +132,13 @@ def power_line(curve: Line2D, window: tuple[float, float], power: float, factor:
     axes.annotate(text, (x[1], y[1]), shift, textcoords="offset points", color="0.35", fontsize="small", **place)
 
 
-def only_decades(*axes: Axes) -> None:
-    """No numbers between the powers of ten, which collide in small panels."""
-    for one in axes:
-        one.xaxis.set_minor_formatter(NullFormatter())
-        one.yaxis.set_minor_formatter(NullFormatter())
+def number_1_2_5(*panels: Axes) -> None:
+    """Numbers at 1, 2 and 5 of each decade, for logarithmic panels of about one."""
+    for axes in panels:
+        for axis in (axes.xaxis, axes.yaxis):
+            axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+            axis.set_major_formatter(lambda value, _: _number(value))
+            axis.set_minor_formatter(NullFormatter())
 
 
 def shades(n: int) -> list[tuple[float, ...]]:

@@ -9,7 +9,6 @@ from granugas.storage.dataset import read
 GRID = {"n_particles": [42], "area_fraction": [0.2], "restitution": [0.8, 0.4], "contact_time": [1.0e-5]}
 STUDY = {
     "grid": GRID,
-    "realizations": 2,
     "until": {"time": 0.05},
     "samples": {"spacing": "log", "count": 10, "first": 1.0e-3},
     "snapshots": [0.05],
@@ -36,7 +35,7 @@ def jobs_with(built: Project, change: dict) -> dict[str, int]:
 def test_a_study_gives_a_dataset_and_an_overview(built: Project) -> None:
     results = built.folder / "results"
     data = read(results / "studies/small.nc")
-    sizes = {"restitution": 2, "realization": 2, "time": 11, "distance_factor": 2, "snapshot": 1, "particle": 42}
+    sizes = {"restitution": 2, "realization": 1, "time": 11, "distance_factor": 2, "snapshot": 1, "particle": 42}
     assert {name: data.sizes[name] for name in sizes} == sizes
     assert data.time.values[[1, -1]] == pytest.approx([1.0e-3, 0.05])
     assert (results / "figures/study_small.png").stat().st_size > 5000
@@ -45,9 +44,9 @@ def test_a_study_gives_a_dataset_and_an_overview(built: Project) -> None:
 
 
 def test_start_states_are_shared_by_all_restitutions(built: Project) -> None:
-    assert len(list(built.folder.glob("results/states/*.nc"))) == 2
-    assert len(list(built.folder.glob("results/runs/*.nc"))) == 4
-    assert len(list(built.folder.glob("results/positions/*.nc"))) == 4
+    assert len(list(built.folder.glob("results/states/*.nc"))) == 1
+    assert len(list(built.folder.glob("results/runs/*.nc"))) == 2
+    assert len(list(built.folder.glob("results/positions/*.nc"))) == 2
 
 
 def test_nothing_is_left_to_do(built: Project) -> None:
@@ -56,17 +55,17 @@ def test_nothing_is_left_to_do(built: Project) -> None:
 
 def test_another_restitution_runs_the_new_runs_only(built: Project) -> None:
     jobs = jobs_with(built, {"grid": {"restitution": [0.8, 0.4, 0.6]}})
-    assert jobs == {"simulate": 2, "clusters": 2, "pool": 1, "figure_study_small": 1}
+    assert jobs == {"simulate": 1, "clusters": 1, "pool": 1, "figure_study_small": 1}
 
 
 def test_another_realization_runs_the_new_runs_only(built: Project) -> None:
-    jobs = jobs_with(built, {"realizations": 3})
+    jobs = jobs_with(built, {"realizations": 2})
     assert jobs == {"equilibrate": 1, "simulate": 2, "clusters": 2, "pool": 1, "figure_study_small": 1}
 
 
 def test_another_distance_factor_analyses_again_and_simulates_nothing(built: Project) -> None:
     jobs = jobs_with(built, {"distance_factors": [1.05, 1.1, 1.3]})
-    assert jobs == {"clusters": 4, "pool": 1, "figure_study_small": 1}
+    assert jobs == {"clusters": 2, "pool": 1, "figure_study_small": 1}
 
 
 @pytest.mark.parametrize(
@@ -86,14 +85,14 @@ def test_a_comment_in_a_script_runs_nothing(built: Project) -> None:
 def test_changed_physics_runs_everything_again(built: Project) -> None:
     with built.edited("src/granugas/dynamics/events/collisions.py", "\nimport", "\nELSE = 1\nimport"):
         jobs = built.jobs()
-    expected = {"equilibrate": 2, "simulate": 4, "clusters": 4, "pool": 1, "figure_study_small": 1}
+    expected = {"equilibrate": 1, "simulate": 2, "clusters": 2, "pool": 1, "figure_study_small": 1}
     assert jobs == expected
 
 
 def test_a_changed_cluster_analysis_simulates_nothing(built: Project) -> None:
     with built.edited("src/granugas/analysis/clusters.py", "\nimport", "\nELSE = 1\nimport"):
         jobs = built.jobs()
-    assert jobs == {"clusters": 4, "pool": 1, "figure_study_small": 1}
+    assert jobs == {"clusters": 2, "pool": 1, "figure_study_small": 1}
 
 
 def test_a_changed_figure_draws_again(built: Project) -> None:
@@ -103,6 +102,6 @@ def test_a_changed_figure_draws_again(built: Project) -> None:
 
 def test_a_study_of_another_name_shares_the_runs(built: Project) -> None:
     overlay = built.folder / "mine.yaml"
-    overlay.write_text(yaml.safe_dump({"studies": {"other": STUDY | {"realizations": 1}}}))
+    overlay.write_text(yaml.safe_dump({"studies": {"other": STUDY}}))
     jobs = built.jobs("--configfile", overlay, "--", "results/studies/other.nc")
     assert jobs == {"pool": 1}

@@ -29,7 +29,7 @@ def draw(data: dict[str, xr.Dataset]) -> Figure:
                 axes.plot(inside, fit(inside), color="black", linewidth=0.7, linestyle=(0, (3, 1.5)), zorder=3)
             band(largest, t, found["largest_cluster_size"], color=colour, label=f"${factor:g}$")
         n, window = runs.sizes["realization"], f"{WINDOW[0]:g} to {WINDOW[1]:g} s"
-        error = f"95 % of {n} runs" if n > 1 else "one run, no interval"
+        error = f"95 % from {n} runs" if n > 1 else "one run, no interval"
         below = {"loc": "upper center", "bbox_to_anchor": (0.5, -0.17)}
         count.legend(title=f"$S_c$: $-\\mathcal{{M}}$ ({window}; {error})", **below)
         mean.legend(title=f"$S_c$: $\\mathcal{{M}}$ ({window}; {error})", **below)

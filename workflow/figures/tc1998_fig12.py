@@ -5,7 +5,7 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from granugas.analysis.theory import homogeneous_cooling
-from granugas.plotting import THEORY, band, grid_points, only_decades, power_of_ten, shades, styled
+from granugas.plotting import THEORY, band, grid_points, number_1_2_5, power_of_ten, shades, styled
 
 STUDIES = ("tc1998_contact_times",)
 
@@ -15,7 +15,7 @@ def draw(data: dict[str, xr.Dataset]) -> Figure:
     """T against tau for each t_c; the inset is the end of the curves, Eq. 23 dashed."""
     figure = Figure(figsize=(4.6, 3.3))
     axes = figure.add_subplot(xscale="log", yscale="log", xlabel=r"$\tau$", ylabel=r"$T$")
-    inset = axes.inset_axes([0.1, 0.1, 0.42, 0.42], xscale="log", yscale="log")
+    inset = axes.inset_axes([0.14, 0.1, 0.42, 0.42], xscale="log", yscale="log")
     points = sorted(grid_points(data[STUDIES[0]]), key=lambda point: -point[0]["contact_time"])
     for (key, runs), colour in zip(points, reversed(shades(len(points))), strict=True):
         band(axes, runs["tau"], runs["kinetic_energy"], color=colour, label=power_of_ten(key["contact_time"]))
@@ -27,8 +27,8 @@ def draw(data: dict[str, xr.Dataset]) -> Figure:
     lowest = min(float(runs["kinetic_energy"].min()) for _, runs in points)
     last = float(points[0][1]["tau"].max())
     axes.set_xlim(tau[0], tau[-1])
-    inset.set(xlim=(last / 10, last), ylim=(lowest / 2, 40 * lowest))
+    inset.set(xlim=(last / 5, last), ylim=(0.8 * lowest, 10 * lowest))
     inset.tick_params(labelsize=7)
-    only_decades(inset)
+    number_1_2_5(inset)
     axes.legend(title=r"$t_c$ (s)", loc="upper left", bbox_to_anchor=(1, 1))
     return figure

@@ -97,6 +97,8 @@ def _join_neighbours(parent, disks, start, lengths, periodic, cells, squared_fac
                 continue
             home, other = row * nx, (z * ny + y) * nx
             for x in range(nx):
+                if start[home + x] == start[home + x + 1]:
+                    continue
                 for image in range(-1 if o > 0 else 0, 2):
                     low, high = _cells_beside(x, image, nx, periodic[0])
                     first, last = start[other + low], start[other + high]

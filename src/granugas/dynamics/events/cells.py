@@ -69,15 +69,6 @@ def list_ahead(gas, i, step_x, step_y):
 
 
 @inline
-def list_next(gas, k, n):
-    """Append the disk that follows entry k of `near` in its cell, if there is one; how many entries there are then."""
-    near = gas.near
-    follower = gas.disks.next[near.disk[k]]
-    near.disk[n], near.x[n], near.y[n] = follower, near.x[k], near.y[k]
-    return n + (follower != NOBODY)
-
-
-@inline
 def nearest_image(separation, box):
     """The component of a separation across the nearest periodic image."""
     return separation - box * math.floor(separation / box + 0.5)

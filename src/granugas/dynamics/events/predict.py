@@ -8,7 +8,6 @@ happens before, and looks around again at that time, if nobody has found it by t
 import math
 
 from granugas.dynamics.events.calendar import cancel, schedule
-from granugas.dynamics.events.cells import list_next
 from granugas.dynamics.events.composition import inline
 from granugas.dynamics.events.flight import exit_time
 from granugas.dynamics.events.state import NOBODY
@@ -48,18 +47,19 @@ def look_around(gas, i, x, y, now, n):
     speed_2 = vx * vx + vy * vy
     earliest = disks.t_coll[i]
     found = NOBODY
-    k = 0
-    while k < n:
+    for k in range(n):
         j = near.disk[k]
-        n = list_next(gas, k, n)
-        flown = now - disks.t[j]
-        wx, wy = disks.vx[j], disks.vy[j]
-        rx = disks.x[j] + wx * flown + near.x[k] - x
-        ry = disks.y[j] + wy * flown + near.y[k] - y
-        delay = contact_delay(rx, ry, wx - vx, wy - vy, speed_2 + wx * wx + wy * wy, min(earliest - now, LONGEST))
-        if now + delay < min(earliest, disks.t_coll[j]):
-            earliest, found = now + delay, j
-        k += 1
+        from_x, from_y = near.x[k] - x, near.y[k] - y
+        while j != NOBODY:
+            flown = now - disks.t[j]
+            wx, wy = disks.vx[j], disks.vy[j]
+            rx = disks.x[j] + wx * flown + from_x
+            ry = disks.y[j] + wy * flown + from_y
+            longest = min(earliest - now, LONGEST)
+            time = now + contact_delay(rx, ry, wx - vx, wy - vy, speed_2 + wx * wx + wy * wy, longest)
+            if time < min(earliest, disks.t_coll[j]):
+                earliest, found = time, j
+            j = disks.next[j]
     if found != NOBODY:
         _pair(gas, i, found, earliest)
 
