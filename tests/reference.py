@@ -15,6 +15,9 @@ IN_TOUCH = 1.0e-11
 AT_REST = 1.0e-9
 """... that approach with less than this part of their relative velocity have just collided; the rest is rounding."""
 
+RESOLVED = 1.0e-10
+"""Where partners come towards each other by less than this (d) between two collisions, rounding decides what follows."""
+
 
 @dataclass
 class Stretch:
@@ -38,7 +41,7 @@ class Stretch:
 
 
 def follow(state: State, diameter: float, restitution: float, contact_time: float, collisions: int) -> Stretch:
-    """The next collisions of a state."""
+    """The next collisions of a state, up to the first that comes too soon to be resolved, which is still in."""
     box = np.array(state.box)
     x, v, last = state.position.copy(), state.velocity.copy(), state.last_collision_time - state.time
     pairs = np.triu_indices(len(x), 1)
@@ -56,6 +59,8 @@ def follow(state: State, diameter: float, restitution: float, contact_time: floa
         v[j] -= (1 + r) / 2 * u_n * normal
         last[i] = last[j] = now
         seen.append((now, (i, j), -u_n * since / diameter, elastic))
+        if seen[-1][2] < RESOLVED:
+            break
     return Stretch(*(np.array(column) for column in zip(*seen, strict=True)), v, last + state.time)
 
 

@@ -16,7 +16,7 @@ _HOMES = {
     "simulate": "granugas.simulate",
     "find_clusters": "granugas.analysis.clusters",
     "load_study": "granugas.storage.dataset",
-    "warm_up": "granugas.dynamics.warm_up",
+    "warm_up": "granugas.warm_up",
 }
 __all__ = sorted(_HOMES)
 __version__ = "0.1.0"

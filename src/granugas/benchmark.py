@@ -7,9 +7,9 @@ from typing import Any
 
 from granugas.dynamics.events.effects.contact_time import ContactTime
 from granugas.dynamics.events.engine import Engine
-from granugas.dynamics.warm_up import warm_up
 from granugas.equilibrate import equilibrate, state_of
 from granugas.scene import Scene
+from granugas.warm_up import warm_up
 
 ROUNDS = 5
 """Timed parts of equal length; the median is quoted."""

@@ -36,10 +36,10 @@ EVENTS = (
 )
 """Modules that decide the numbers of an event-driven run, its start state included."""
 
-ANALYSIS = ("granugas.analysis.*",)
-"""Modules that decide the numbers of a cluster analysis and of what figures compute."""
+ANALYSIS = ("granugas.analysis.burning", "granugas.analysis.clusters")
+"""Modules that decide the numbers of a cluster analysis."""
 
-KERNELS = ("granugas.dynamics.*", *ANALYSIS)
+KERNELS = ("granugas.dynamics.*", "granugas.analysis.*")
 """Modules with compiled functions, and what these call."""
 
 UNUSED_AFTER = 30 * 86400.0

@@ -23,6 +23,7 @@ __all__ = [
     "Variable",
     "content_sha256",
     "describe",
+    "load_study",
     "pool",
     "read",
     "read_positions",
@@ -85,6 +86,19 @@ def read(path: str | Path) -> xr.Dataset:
         FileNotFoundError: no such file.
     """
     return xr.load_dataset(path, engine="netcdf4", decode_times=False)
+
+
+def load_study(path: str | Path) -> xr.Dataset:
+    """The pooled dataset of a study, `<output>/studies/<study>.nc`, in memory.
+
+    Raises:
+        FileNotFoundError: no such file; names the studies that are there.
+    """
+    path = Path(path)
+    if not path.exists():
+        there = ", ".join(sorted(other.stem for other in path.parent.glob("*.nc"))) or "none"
+        raise FileNotFoundError(f"{path}: no such study; in {path.parent} there are: {there}")
+    return read(path)
 
 
 def _content_of(named: Mapping[str, Any]) -> dict[str, Any]:

@@ -117,6 +117,7 @@ def _rebase(gas, shift):
     calendar.start -= shift
     calendar.now -= shift
     calendar.until -= shift
+    calendar.reached -= shift
     gas.tally.loss_time -= gas.tally.loss * shift
     for i in range(calendar.n_disks):
         disks.t[i] -= shift

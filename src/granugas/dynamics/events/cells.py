@@ -69,6 +69,19 @@ def list_ahead(gas, i, step_x, step_y):
 
 
 @inline
+def steps_between(a, b, count):
+    """Columns or rows from cell a to its neighbour b, across the periodic edge where that is nearer."""
+    steps = b - a
+    if steps > 1:
+        return steps - count
+    if steps < -1:
+        return steps + count
+    return steps
+
+
+@inline
 def nearest_image(separation, box):
-    """The component of a separation across the nearest periodic image."""
+    """The component of a separation across the nearest periodic image (in a box of one or two cells steps are ambiguous)."""
+    if abs(separation) <= 0.5 * box:
+        return separation
     return separation - box * math.floor(separation / box + 0.5)

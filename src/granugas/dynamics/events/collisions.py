@@ -2,7 +2,7 @@
 
 import math
 
-from granugas.dynamics.events.cells import nearest_image
+from granugas.dynamics.events.cells import nearest_image, steps_between
 from granugas.dynamics.events.composition import generic, inline
 from granugas.dynamics.events.flight import position
 
@@ -23,8 +23,9 @@ def collide(gas, i, j, now):
     disks.x[j], disks.y[j] = position(gas, j, now)
     disks.t[i] = disks.t[j] = now
 
-    nx = nearest_image(disks.x[j] - disks.x[i] + grid.width_x * (disks.cx[j] - disks.cx[i]), grid.box_x)
-    ny = nearest_image(disks.y[j] - disks.y[i] + grid.width_y * (disks.cy[j] - disks.cy[i]), grid.box_y)
+    nx = disks.x[j] - disks.x[i] + grid.width_x * steps_between(disks.cx[i], disks.cx[j], grid.nx)
+    ny = disks.y[j] - disks.y[i] + grid.width_y * steps_between(disks.cy[i], disks.cy[j], grid.ny)
+    nx, ny = nearest_image(nx, grid.box_x), nearest_image(ny, grid.box_y)
     norm = math.sqrt(nx * nx + ny * ny)
     nx, ny = nx / norm, ny / norm
 

@@ -59,8 +59,8 @@ class Tally:
 class Engine:
     """Event-driven dynamics of one scene.
 
-    `arrays` is the whole state, calendar included; `resume` continues from a copy of it bit for bit. The dynamics do not depend on when or how often they are looked at: `advance` stops between two events, and `state`
-    only reads.
+    `arrays` is the whole state, calendar included: `resume` continues from a copy of it bit for bit. The dynamics do not
+    depend on when or how often they are looked at: `advance` stops between two events, and `state` only reads.
     """
 
     def __init__(self, scene: Scene, state: State, rule: Any = None, watch: Any = None) -> None:
@@ -89,9 +89,9 @@ class Engine:
 
     @property
     def time(self) -> float:
-        """Time of the last event or of the last stop, in s."""
+        """Time up to which everything has happened, in s."""
         calendar = self._gas.calendar
-        return float(calendar.base + (calendar.base_low + calendar.now))
+        return float(calendar.base + (calendar.base_low + calendar.reached))
 
     @property
     def collisions(self) -> int:
@@ -113,15 +113,14 @@ class Engine:
         calendar = self._gas.calendar
         calendar.until = (until - calendar.base) - calendar.base_low
         why = loop.run(self._gas, most_collisions, most_events)
-        if why == loop.TIME:
-            calendar.now = max(calendar.now, calendar.until)
+        calendar.reached = max(calendar.now, calendar.until) if why == loop.TIME else calendar.now
         return why
 
     def state(self) -> State:
         """Every disk at the present time."""
         disks, clocks, calendar, grid = (self.arrays[k] for k in ("disks", "clocks", "calendar", "grid"))
         d, base = self.scene.diameter, calendar["base"][0] + calendar["base_low"][0]
-        flown = calendar["now"][0] - disks["t"]
+        flown = calendar["reached"][0] - disks["t"]
         position = np.empty((len(disks), 2))
         for axis, (x, v, c) in enumerate((("x", "vx", "cx"), ("y", "vy", "cy"))):
             width = grid[f"width_{x}"][0]
@@ -146,7 +145,7 @@ class Engine:
             collisions=int(t.collisions),
             elastic=np.array([t.elastic]) if shares is None else shares.copy(),
             loss=float(t.loss) * d2,
-            loss_time=float(t.loss * self._gas.calendar.now - t.loss_time) * d2,
+            loss_time=float(t.loss * self._gas.calendar.reached - t.loss_time) * d2,
             stress=np.array([[t.xx, t.xy], [t.yx, t.yy]]) * d2,
         )
         done = self.collisions

@@ -44,8 +44,16 @@ NEAR = np.dtype([("x", "f8"), ("disk", "i8"), ("y", "f8")])
 """Scratch: the disks of a block of cells, and where the centres of their cells are (d)."""
 
 GRID = np.dtype(
-    [("nx", "i8"), ("ny", "i8"), ("width_x", "f8"), ("width_y", "f8"), ("half_x", "f8"), ("half_y", "f8")]
-    + [("box_x", "f8"), ("box_y", "f8")]
+    [
+        ("nx", "i8"),
+        ("ny", "i8"),
+        ("width_x", "f8"),
+        ("width_y", "f8"),
+        ("half_x", "f8"),
+        ("half_y", "f8"),
+        ("box_x", "f8"),
+        ("box_y", "f8"),
+    ]
 )
 """Cells of the box; lengths in d."""
 
@@ -64,6 +72,7 @@ CALENDAR = np.dtype(
         ("base", "f8"),  # origin of all times, as an unevaluated sum of two
         ("base_low", "f8"),
         ("until", "f8"),  # no event after this time is wanted now
+        ("reached", "f8"),  # up to here everything has happened; read by Python alone
         ("start", "f8"),  # of the window that the bins cover
         ("width", "f8"),  # of a bin
         ("rate", "f8"),  # bins per second, 1 / width
