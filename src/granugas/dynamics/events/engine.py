@@ -14,7 +14,7 @@ from granugas.dynamics.events.effects.constant import Constant, Elastic
 from granugas.dynamics.events.effects.contact_time import ContactTime
 from granugas.dynamics.events.effects.elastic_share import SHARES, ElasticShare
 from granugas.dynamics.events.effects.nobody import Nobody
-from granugas.dynamics.events.memory import Record, Table
+from granugas.dynamics.events.memory import Record, Table, allocate
 from granugas.dynamics.state import State
 from granugas.scene import Scene
 
@@ -80,10 +80,10 @@ class Engine:
         engine = cls.__new__(cls)
         engine.scene, engine.box = scene, box
         engine.rule, engine.watch = rule_of(scene), watch_of(scene)
-        tables = {name: arrays[name].copy() for name in layout.LAYOUTS}
+        tables = {name: allocate(len(arrays[name]), rows) for name, rows in layout.LAYOUTS.items()}
         engine.arrays = tables | _rows_of("rule", engine.rule) | _rows_of("watch", engine.watch)
-        for name in engine.arrays.keys() - tables.keys():
-            engine.arrays[name][:] = arrays[name]
+        for name, rows in engine.arrays.items():
+            rows[:] = arrays[name]
         engine._gas = layout.bundle(tables, engine.rule, engine.watch)
         return engine
 
@@ -190,7 +190,7 @@ def _arrays(state: State, diameter: float) -> dict[str, np.ndarray]:
     n = len(state.position)
     box = tuple(length / diameter for length in state.box)
     grid = _grid(n, box)
-    disks, clocks = np.zeros(n, layout.DISKS), np.zeros(n, layout.CLOCKS)
+    disks, clocks = allocate(n, layout.DISKS), allocate(n, layout.CLOCKS)
     for axis, (x, v, c) in enumerate((("x", "vx", "cx"), ("y", "vy", "cy"))):
         width, count = grid[f"width_{x}"][0], grid[f"n{x}"][0]
         place = state.position[:, axis] / diameter
@@ -202,24 +202,27 @@ def _arrays(state: State, diameter: float) -> dict[str, np.ndarray]:
     clocks["interval"] = state.last_collision_interval
     speed = math.sqrt(np.mean(np.sum(state.velocity**2, axis=1))) / diameter
     calendar = _calendar(n, state.time, speed)
-    return {
+    tables = {
         "disks": disks,
         "clocks": clocks,
-        "cells": np.full(int(grid["nx"][0] * grid["ny"][0]), layout.NOBODY, np.int32).view(layout.CELLS),
-        "near": np.zeros(_most_near(grid), layout.NEAR),
+        "cells": allocate(int(grid["nx"][0] * grid["ny"][0]), layout.CELLS),
+        "near": allocate(_most_near(grid), layout.NEAR),
         "grid": grid,
-        "schedule": np.full(n, math.inf).view(layout.SCHEDULE),
-        "bins": np.zeros(int(calendar["n_bins"][0]) * layout.SLOTS, layout.BINS),
-        "heap": np.zeros(int(calendar["heap_limit"][0]), layout.HEAP),
+        "schedule": allocate(n, layout.SCHEDULE),
+        "bins": allocate(int(calendar["n_bins"][0]) * layout.SLOTS, layout.BINS),
+        "heap": allocate(int(calendar["heap_limit"][0]), layout.HEAP),
         "calendar": calendar,
-        "tally": np.zeros(1, layout.TALLY),
+        "tally": allocate(1, layout.TALLY),
     }
+    tables["cells"]["head"] = layout.NOBODY
+    tables["schedule"]["time"] = math.inf
+    return tables
 
 
 def _grid(n: int, box: tuple[float, float]) -> np.ndarray:
     """Cells wide enough for one disk, and wider in a dilute gas, where leaving a cell costs more than a neighbour."""
     wanted = min(max(CELL_WIDTH * math.sqrt(box[0] * box[1] / n), NARROWEST), WIDEST)
-    grid = np.zeros(1, layout.GRID)
+    grid = allocate(1, layout.GRID)
     for x, length in zip("xy", box, strict=True):
         count = min(max(1, int(length / wanted)), MOST_CELLS)
         grid[f"n{x}"] = count
@@ -237,7 +240,7 @@ def _most_near(grid: np.ndarray) -> int:
 
 def _calendar(n: int, time: float, speed: float) -> np.ndarray:
     """A calendar whose window has just ended, so that the first event opens one; `speed` in d/s."""
-    calendar = np.zeros(1, layout.CALENDAR)
+    calendar = allocate(1, layout.CALENDAR)
     n_bins = max(64, n // 2)
     width = EVENTS_PER_BIN / (3 * n * speed) if speed > 0 else 1.0  # some three events per diameter flown
     calendar["base"] = time

@@ -32,6 +32,18 @@ COMPILED = not config.DISABLE_JIT
 """False under NUMBA_DISABLE_JIT=1: kernels are then plain Python."""
 
 
+CACHE_LINE = 64
+"""Bytes."""
+
+
+def allocate(count: int, layout: np.dtype) -> np.ndarray:
+    """`count` rows of zeros that begin with a cache line: a row of 64 bytes then never lies across two of them."""
+    size = count * layout.itemsize
+    raw = np.zeros(size + CACHE_LINE, np.uint8)
+    begin = -raw.ctypes.data % CACHE_LINE
+    return raw[begin : begin + size].view(layout)
+
+
 class Table:
     """Rows of a structured array, seen by kernels as columns: `table.column[row]`."""
 

@@ -1,0 +1,38 @@
+"""Gases to start from."""
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+
+from granugas.dynamics.events.engine import Engine
+from granugas.dynamics.state import State
+from granugas.equilibrate import at_rest
+from granugas.initial import random_stream, sites, start_lattice, start_velocities
+from granugas.scene import Scene
+
+TILTED = {2: 1, 3: 1, 5: 2}
+"""Few disks start at (k, m k)/N of the box, which leaves them more room than rows and columns do: m for each N."""
+
+
+@pytest.fixture(scope="session")
+def start_of() -> Callable[[Scene], State]:
+    """The function that gives a scene's disks after 40 elastic collisions each; the same for all r and t_c."""
+    return lambda scene: _after_elastic_collisions(replace(scene, restitution=1.0, contact_time=0.0))
+
+
+@cache
+def _after_elastic_collisions(scene: Scene) -> State:
+    rng, n = random_stream(scene, 0, 0), scene.n_particles
+    if n in TILTED:
+        box = (math.sqrt(scene.area),) * 2
+        position = np.outer(np.arange(n), [1, TILTED[n]]) % n * box[0] / n
+    else:
+        lattice = start_lattice(scene)
+        box, position = lattice.box, sites(lattice, n, rng)
+    engine = Engine(scene, at_rest(position, start_velocities(scene, rng), box))
+    engine.advance(math.inf, 20 * n)
+    return engine.state()

@@ -1,0 +1,37 @@
+"""The gaps between near disks, as exact as the engine knows them."""
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from granugas.dynamics.events.engine import Engine
+
+NEAR = 1.05
+"""Pairs up to this distance (d) are looked at."""
+
+TOLERATED = 1.0e-12
+"""Deepest overlap (d) that rounding may leave."""
+
+
+def smallest_gap(engine: Engine) -> float:
+    """The least distance of two disks minus d, in d; infinite where none are near.
+
+    The tree on absolute positions only names the near pairs. Their separations come from coordinates relative to the
+    cells, which do not lose digits in a large box.
+    """
+    disks, grid, calendar = (engine.arrays[name] for name in ("disks", "grid", "calendar"))
+    box = np.array([grid["box_x"][0], grid["box_y"][0]])
+    cells = np.array([grid["nx"][0], grid["ny"][0]])
+    width = np.array([grid["width_x"][0], grid["width_y"][0]])
+    flown = (calendar["now"][0] - disks["t"])[:, np.newaxis]
+    in_cell = np.stack([disks["x"], disks["y"]], axis=1) + np.stack([disks["vx"], disks["vy"]], axis=1) * flown
+    cell = np.stack([disks["cx"], disks["cy"]], axis=1).astype(np.int64)
+    absolute = np.mod(in_cell + (cell + 0.5) * width, box)
+    absolute[absolute >= box] = 0.0
+    i, j = cKDTree(absolute, boxsize=box).query_pairs(NEAR, output_type="ndarray").T
+    if not len(i):
+        return np.inf
+    apart = cell[j] - cell[i]
+    apart -= cells * np.rint(apart / cells).astype(np.int64)
+    separation = in_cell[j] - in_cell[i] + apart * width
+    separation -= box * np.rint(separation / box)  # where a box of a few cells leaves two ways around
+    return float(np.min(np.hypot(*separation.T)) - 1.0)

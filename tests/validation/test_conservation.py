@@ -1,0 +1,115 @@
+"""What must never change or only so much: no overlap, time, momentum, energy; over ten million collisions and more."""
+
+import numpy as np
+import pytest
+from gaps import TOLERATED, smallest_gap
+
+from granugas.analysis.observables import kinetic_energy
+from granugas.dynamics.events.engine import Engine
+from granugas.equilibrate import at_rest, equilibrate, state_of
+from granugas.scene import Scene
+
+MANY = 10_000_000
+LOOKS = 100
+COLLISIONS = [MANY, pytest.param(10 * MANY, marks=[pytest.mark.full, pytest.mark.timeout(1200)])]
+
+
+def gas(**values) -> Scene:
+    return Scene(n_particles=1435, **values)
+
+
+def started(scene: Scene) -> Engine:
+    return Engine(scene, state_of(equilibrate(scene, seed=1998)))
+
+
+def energy(engine: Engine) -> float:
+    return float(kinetic_energy(engine.state().velocity).sum())
+
+
+def momentum(engine: Engine) -> float:
+    return float(np.abs(engine.state().velocity.sum(axis=0)).max())
+
+
+@pytest.mark.parametrize("collisions", COLLISIONS)
+@pytest.mark.parametrize("area_fraction", [0.25, 0.7])
+def test_elastic_disks_never_overlap_and_keep_energy_and_momentum(area_fraction, collisions):
+    engine = started(gas(area_fraction=area_fraction, restitution=1.0, contact_time=0.0))
+    n, start, time = engine.scene.n_particles, energy(engine), engine.time
+    v_bar = np.sqrt(2 * start / n)
+    for _ in range(LOOKS):
+        engine.advance(np.inf, collisions // LOOKS)
+        assert smallest_gap(engine) >= -TOLERATED
+        assert engine.time > time
+        time = engine.time
+    assert engine.collisions == collisions
+    assert engine.backwards == 0
+    assert abs(energy(engine) / start - 1) <= 1e-11
+    assert momentum(engine) <= 1e-12 * n * v_bar
+
+
+@pytest.mark.parametrize("collisions", COLLISIONS)
+@pytest.mark.parametrize("area_fraction", [0.25, 0.7])
+def test_dissipated_energy_is_what_is_missing(area_fraction, collisions):
+    """At every look the loss since the one before, and at the end all losses."""
+    engine = started(gas(area_fraction=area_fraction, restitution=0.8, contact_time=1e-5))
+    n, start, time = engine.scene.n_particles, energy(engine), engine.time
+    left, lost = start, 0.0
+    for _ in range(LOOKS):
+        engine.advance(np.inf, collisions // LOOKS)
+        assert smallest_gap(engine) >= -TOLERATED
+        assert engine.time > time
+        time = engine.time
+        loss, before, left = engine.take_tally().loss, left, energy(engine)
+        assert loss == pytest.approx(before - left, abs=1e-10 * before)
+        lost += loss
+    assert engine.backwards == 0
+    assert left < 0.01 * start
+    assert lost == pytest.approx(start - left, abs=1e-10 * start)
+    assert momentum(engine) <= 1e-12 * n * np.sqrt(2 * start / n)
+
+
+@pytest.mark.parametrize("restitution", [0.99, 0.9, 0.0])
+def test_losses_of_many_samples_add_up(restitution):
+    """Thousands of samples; between two of them the mean energy of the tally lies between that of their ends."""
+    engine = started(Scene(n_particles=378, restitution=restitution, contact_time=1e-6))
+    start = left = energy(engine)
+    lost = 0.0
+    for stop in np.linspace(0.0, 2.0, 4001)[1:]:
+        before, dt = left, stop - engine.time
+        engine.advance(stop)
+        tally, left = engine.take_tally(), energy(engine)
+        lost += tally.loss
+        mean = left + tally.loss - tally.loss_time / dt
+        assert left * (1 - 1e-9) <= mean <= before * (1 + 1e-9)
+    assert lost == pytest.approx(start - left, abs=1e-10 * start)
+
+
+def test_looking_changes_nothing():
+    """A run that is looked at ten thousand times ends as one that is not, bit for bit."""
+    scene = gas(area_fraction=0.25, restitution=0.8, contact_time=1e-5)
+    watched, alone = started(scene), started(scene)
+    for stop in np.linspace(0.0, 0.5, 10_001)[1:]:
+        watched.advance(stop)
+        watched.take_tally()
+    alone.advance(0.5)
+    np.testing.assert_array_equal(watched.state().position, alone.state().position)
+    np.testing.assert_array_equal(watched.state().velocity, alone.state().velocity)
+    assert watched.collisions == alone.collisions
+
+
+@pytest.mark.parametrize("gap", [1e-3, 3e-13, -3e-13, -1e-3])
+@pytest.mark.parametrize("place", [(0.5, 0.5), (0.0, 0.5), (0.5, 0.0), (0.0, 0.0)], ids=str)
+def test_the_gap_is_seen_across_every_edge(gap, place):
+    """Two disks in a box of 1000 diameters, in its middle and across its edges; they lie along (3, 4)/5."""
+    scene = Scene(n_particles=2, diameter=1.0, restitution=1.0, contact_time=0.0)
+    box = (1024.0, 1024.0)
+    engine = Engine(scene, at_rest(np.array(place) * box + np.zeros((2, 2)), np.zeros((2, 2)), box))
+    disks, grid = engine.arrays["disks"], engine.arrays["grid"]
+    cells, width = grid["nx"][0], grid["width_x"][0]
+    middle = np.array(place) * cells
+    for k, side in enumerate((-1, 1)):
+        from_edge = side * (1 + gap) / 2 * np.array([0.6, 0.8])
+        inside = np.floor(middle + side * 0.25).astype(int)
+        disks["x"][k], disks["y"][k] = from_edge + (middle - inside - 0.5) * width
+        disks["cx"][k], disks["cy"][k] = inside % cells
+    assert smallest_gap(engine) == pytest.approx(gap, abs=1e-14)
