@@ -1,9 +1,9 @@
 """Freely cooling granular gases: dissipative hard disks, the TC model, and their clusters.
 
-    import granugas as gg
-    scene = gg.Scene(n_particles=5740, area_fraction=0.2267, restitution=0.4, contact_time=1e-5)
-    data = gg.simulate(scene, until=5.0, seed=1)
-    found = gg.find_clusters(data, distance_factors=[1.05, 1.1])
+import granugas as gg
+scene = gg.Scene(n_particles=5740, area_fraction=0.2267, restitution=0.4, contact_time=1e-5)
+data = gg.simulate(scene, until=5.0, seed=1)
+found = gg.find_clusters(data, distance_factors=[1.05, 1.1])
 """
 
 from importlib import import_module

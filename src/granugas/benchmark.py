@@ -59,9 +59,7 @@ def time_collisions(
         done, clock = engine.collisions, time.process_time()
         engine.advance(float("inf"), -(-collisions // ROUNDS))
         costs.append((time.process_time() - clock) / max(engine.collisions - done, 1) * 1e9)
-    return Timing(
-        statistics.median(costs), min(costs), max(costs), collisions, engine.bytes_per_particle, compile_s
-    )
+    return Timing(statistics.median(costs), min(costs), max(costs), collisions, engine.bytes_per_particle, compile_s)
 
 
 def time_span(scene: Scene, until: float, *, equilibration: float = 30.0, seed: int = 1) -> Timing:

@@ -82,7 +82,7 @@ def equilibrate(
         found = judge(engine.state(), lattice, melts)
     bar.close()
     done = 2 * engine.collisions / scene.n_particles
-    if not found.reached:
+    if not found.reached and scene.n_particles > 1:
         logger.warning("not in equilibrium after %g collisions per particle: %s", done, found)
     return _dataset(scene, lattice, _at_time_zero(engine.state(), scene), found, done)
 

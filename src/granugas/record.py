@@ -39,9 +39,7 @@ ELASTIC = (
 class Record:
     """Arrays that fill as the run goes on; what it does not reach stays NaN."""
 
-    def __init__(
-        self, scene: Scene, start: State, points: Samples, snapshots: Sequence[float], keep_positions: bool
-    ) -> None:
+    def __init__(self, scene: Scene, start: State, points: Samples, snapshots: Sequence[float], keep_positions: bool) -> None:
         """Take the sample at t = 0. `snapshots` in s; with `keep_positions` every sample keeps the positions."""
         self._scene, self._points = scene, points
         self._contact_times = np.array(sorted(scene.contact_times))

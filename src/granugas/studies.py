@@ -157,9 +157,7 @@ class Studies:
         }
 
 
-def load(
-    config: Mapping[str, Any], schema: Mapping[str, Any], figures: Mapping[str, tuple[str, ...]] | None = None
-) -> Studies:
+def load(config: Mapping[str, Any], schema: Mapping[str, Any], figures: Mapping[str, tuple[str, ...]] | None = None) -> Studies:
     """Check a configuration and expand it.
 
     Args:
@@ -173,9 +171,7 @@ def load(
     check_structure(config, schema)
     whole = with_defaults(config, schema)
     piece = schema["$defs"]["study"]
-    studies = {
-        name: _study(name, with_defaults(block, piece), whole["seed"]) for name, block in whole["studies"].items()
-    }
+    studies = {name: _study(name, with_defaults(block, piece), whole["seed"]) for name, block in whole["studies"].items()}
     figures = figures or {}
     overviews = {f"study_{name}": (name,) for name in studies}
     left_out = {name: tuple(n for n in needs if n not in studies) for name, needs in figures.items()}
@@ -279,9 +275,7 @@ def _samples(where: str, block: Mapping[str, Any], until: Mapping[str, float]) -
     return {"spacing": block["spacing"], "count": count, "first": first, "axis": axis}
 
 
-def _asked_for(
-    names: Sequence[str], possible: Mapping[str, Any], left_out: Mapping[str, Sequence[str]]
-) -> tuple[str, ...]:
+def _asked_for(names: Sequence[str], possible: Mapping[str, Any], left_out: Mapping[str, Sequence[str]]) -> tuple[str, ...]:
     for name in names:
         if name in left_out:
             missing = ", ".join(left_out[name])

@@ -22,7 +22,7 @@ from granugas.dynamics.events.effects.recorder import recorder
 from granugas.dynamics.events.engine import Engine
 from granugas.scene import Scene
 
-STRETCH = {0.01: 0.75, 0.05: 2.0, 0.25: 5.0, 0.5: 10.0, 0.7: 10.0, 0.85: 10.0}
+STRETCH = {0.01: 0.5, 0.05: 1.5, 0.25: 3.0, 0.5: 6.0, 0.7: 10.0, 0.85: 10.0}
 """Collisions per particle from one state on, by area fraction."""
 
 COLLISIONS_PER_PARTICLE = 10

@@ -7,7 +7,5 @@ with logged(snakemake.log[0]):
     from granugas.storage.dataset import write
 
     run = snakemake.params.run
-    state = equilibrate(
-        run.scene, seed=run.seed, realization=run.realization, collisions_per_particle=run.equilibration
-    )
+    state = equilibrate(run.scene, seed=run.seed, realization=run.realization, collisions_per_particle=run.equilibration)
     write(state, snakemake.output[0])

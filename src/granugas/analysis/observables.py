@@ -37,9 +37,7 @@ def elastic_particle_fraction(last_collision_time: Numbers, time: float, contact
     return _elastic(last_collision_time, time, contact_time).mean(axis=-1)
 
 
-def elastic_energy_fraction(
-    velocity: Numbers, last_collision_time: Numbers, time: float, contact_time: ArrayLike
-) -> Numbers:
+def elastic_energy_fraction(velocity: Numbers, last_collision_time: Numbers, time: float, contact_time: ArrayLike) -> Numbers:
     """e_e = E_e/E, the share of the kinetic energy that elastic particles carry (A section 5.4).
 
     Arguments as in `elastic_particle_fraction`, velocities (n, dim) in m/s.

@@ -122,9 +122,7 @@ def _own_coordinates(parts: list[xr.Dataset], grid: Sequence[str]) -> xr.Dataset
     merged = xr.merge(own, join="outer", compat="no_conflicts", combine_attrs="drop")
     in_seconds = "time" in merged.coords and merged["time"].dtype.kind == "f"
     if in_seconds and any(part.sizes["time"] != merged.sizes["time"] for part in own if "time" in part.dims):
-        raise ValueError(
-            "time: the sampling times of the runs differ; allowed are equal ones in s, or numbered samples"
-        )
+        raise ValueError("time: the sampling times of the runs differ; allowed are equal ones in s, or numbered samples")
     return merged
 
 

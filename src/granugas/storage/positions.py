@@ -75,8 +75,6 @@ def _codes(trajectory: xr.DataArray, sides: np.ndarray, scale: float) -> Iterato
     for step in trajectory:
         positions = step.values
         if ((positions < 0) | (positions > sides)).any():
-            raise ValueError(
-                f"trajectory: a position outside of the box, allowed is [0, {sides[0]:g}) x [0, {sides[1]:g}) m"
-            )
+            raise ValueError(f"trajectory: a position outside of the box, allowed is [0, {sides[0]:g}) x [0, {sides[1]:g}) m")
         codes = np.minimum(np.floor(positions / scale), largest)
         yield np.where(np.isnan(codes), LEVELS, codes).astype(np.uint32)

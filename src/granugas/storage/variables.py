@@ -120,9 +120,7 @@ VARIABLES = {
     "last_collision_time": Variable(
         "s", "time of a particle's last collision, negative before dissipation began", "t_n^(i)", "A Eq. 4"
     ),
-    "last_collision_interval": Variable(
-        "s", "time between the last two collisions of a particle", "t_n^(i)", "A Eq. 4"
-    ),
+    "last_collision_interval": Variable("s", "time between the last two collisions of a particle", "t_n^(i)", "A Eq. 4"),
     "collision_frequency": Variable("s-1", "collision frequency of a particle", "C_r^(i)", "A Fig. 10, B Fig. 5"),
     # one value a run
     "enskog_rate": Variable("s-1", "Enskog collision rate at t = 0", "1/t_E(0)", "A Eq. 19, B Eq. 2"),

@@ -12,7 +12,7 @@ from granugas.dynamics.events.composition import inline, outline
 from granugas.dynamics.events.look_ahead import look_ahead
 from granugas.dynamics.events.state import NOBODY, SLOTS
 
-EVENTS_PER_BIN = 1.4
+EVENTS_PER_BIN = 2.0
 """Wanted mean; the width of the bins follows the measured rate of events."""
 
 SHORTEST = 1.0e-30

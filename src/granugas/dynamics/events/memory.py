@@ -186,9 +186,7 @@ def _pointer_to_field(context: Any, builder: Any, typ: RecordType, value: Any, n
 
 @type_callable(operator.getitem)
 def _type_getitem(context: Any) -> Any:
-    return lambda column, index: (
-        column.scalar if isinstance(column, ColumnType) and isinstance(index, types.Integer) else None
-    )
+    return lambda column, index: column.scalar if isinstance(column, ColumnType) and isinstance(index, types.Integer) else None
 
 
 @type_callable(operator.setitem)
