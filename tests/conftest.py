@@ -19,14 +19,18 @@ TILTED = {2: 1, 3: 1, 5: 2}
 
 
 @pytest.fixture(scope="session")
-def start_of() -> Callable[[Scene], State]:
+def start_of() -> Callable[..., State]:
     """The function that gives a scene's disks after 40 elastic collisions each; the same for all r and t_c."""
-    return lambda scene: _after_elastic_collisions(replace(scene, restitution=1.0, contact_time=0.0))
+
+    def start(scene: Scene, realization: int = 0) -> State:
+        return _after_elastic_collisions(replace(scene, restitution=1.0, contact_time=0.0), realization)
+
+    return start
 
 
 @cache
-def _after_elastic_collisions(scene: Scene) -> State:
-    rng, n = random_stream(scene, 0, 0), scene.n_particles
+def _after_elastic_collisions(scene: Scene, realization: int) -> State:
+    rng, n = random_stream(scene, 0, realization), scene.n_particles
     if n in TILTED:
         box = (math.sqrt(scene.area),) * 2
         position = np.outer(np.arange(n), [1, TILTED[n]]) % n * box[0] / n

@@ -48,7 +48,7 @@ def follow(state: State, diameter: float, restitution: float, contact_time: floa
     now, seen = 0.0, []
     while len(seen) < collisions:
         delay, i, j, normal = first_contact(x, v, pairs, box, diameter)
-        now, x = now + delay, x + v * delay
+        now, x = now + delay, (x + v * delay) % box
         if i == j:  # nobody, within reach of the images
             continue
         since = now - max(last[i], last[j])

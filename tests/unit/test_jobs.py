@@ -82,9 +82,7 @@ def test_claiming_removes_what_killed_jobs_left(tmp_path: Path) -> None:
 
 
 def test_progress_counts_the_expected_work(tmp_path: Path) -> None:
-    long = Job(
-        "simulate", (tmp_path / "long.nc",), written(tmp_path / "long.log", "start\n12:00 t = 1 s, 40 % done\n", NOW)
-    )
+    long = Job("simulate", (tmp_path / "long.nc",), written(tmp_path / "long.log", "start\n12:00 t = 1 s, 40 % done\n", NOW))
     done = Job("simulate", (written(tmp_path / "done.nc", "", NOW),), None)
     waits = Job("simulate", (written(tmp_path / "old.nc", "", OLD),), written(tmp_path / "old.log", "99 %\n", OLD))
     line = progress({long: 50.0, done: 20.0, waits: 30.0}, since=1500.0, now=1560.0)

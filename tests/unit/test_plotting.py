@@ -190,9 +190,7 @@ def test_grid_points():
     data["kinetic_energy"] = data["kinetic_energy"].copy()
     data["kinetic_energy"].loc[{"n_particles": 42, "restitution": 0.8}] = np.nan
     data["kinetic_energy"].loc[{"n_particles": 378, "realization": 1}] = np.nan
-    data["kinetic_energy"].loc[{"n_particles": 42, "restitution": 0.4, "realization": 2, "time": slice(9, None)}] = (
-        np.nan
-    )
+    data["kinetic_energy"].loc[{"n_particles": 42, "restitution": 0.4, "realization": 2, "time": slice(9, None)}] = np.nan
     found = list(plotting.grid_points(data))
     assert [(key["n_particles"], key["restitution"]) for key, _ in found] == [(42, 0.4), (378, 0.4), (378, 0.8)]
     assert found[0][0]["area_fraction"] == 0.25

@@ -7,7 +7,7 @@ therefore starts afresh from the engine's state after each stretch.
 
 Where partners hardly move towards each other between two collisions (`RESOLVED`), rounding decides what comes next. With
 r = 0 that is the rule: as soon as three disks meet, they collapse. With t_c > 0 the collapse ends by itself and the
-comparison goes on behind it; with t_c = 0 it ends there, and the engine has to call it a collapse too.
+comparison goes on behind it; with t_c = 0 it ends there, the engine has to take notice, and another start goes on.
 """
 
 import math
@@ -17,7 +17,6 @@ import pytest
 from reference import RESOLVED, follow
 
 from granugas.analysis.theory import enskog_rate
-from granugas.dynamics.events import loop
 from granugas.dynamics.events.effects.recorder import recorder
 from granugas.dynamics.events.engine import Engine
 from granugas.scene import Scene
@@ -34,10 +33,9 @@ RESTITUTIONS = (1.0, 0.8, 0.4, 0.0)
 CONTACT_TIMES = (0.0, 1.0e-5, 1.0e-3)
 
 
-def compare(scene, start):
-    """Let engine and brute force collide side by side; returns how many collisions, and the pair that collapses if one does."""
+def compare(scene, start, wanted):
+    """Let engine and brute force collide side by side; how many collisions came, and the pair that collapses, if one does."""
     n, r, t_c = scene.n_particles, scene.restitution, scene.contact_time
-    wanted = math.ceil(COLLISIONS_PER_PARTICLE * n / 2)
     stretch = max(1, int(STRETCH[scene.area_fraction] * n / 2))
     engine = Engine(scene, start, watch=recorder(wanted))
     done = 0
@@ -53,11 +51,9 @@ def compare(scene, start):
 
         np.testing.assert_array_equal(np.stack([seen["i"], seen["j"]], axis=1)[: len(times)], expected.pair)
         speed_2 = np.mean(np.sum(before.velocity**2, axis=1))
-        mean_time = 1 / enskog_rate(scene.area_fraction, speed_2 / 2, scene.diameter)
-        np.testing.assert_allclose(times, expected.time, rtol=0, atol=TIMES * mean_time)
-        np.testing.assert_allclose(
-            after.last_collision_time, expected.last_collision_time, rtol=0, atol=TIMES * mean_time
-        )
+        near = {"rtol": TIMES, "atol": TIMES / enskog_rate(scene.area_fraction, speed_2 / 2, scene.diameter)}
+        np.testing.assert_allclose(times, expected.time, **near)
+        np.testing.assert_allclose(after.last_collision_time, expected.last_collision_time, **near)
         if t_c > 0:
             assert engine.take_tally().elastic.tolist() == [expected.elastic.sum()]
         if expected.approach[-1] >= RESOLVED:
@@ -68,18 +64,19 @@ def compare(scene, start):
     return done, None
 
 
-def check(scene, start):
-    """Compare for ten collisions per particle, or up to a collapse that only r = 0 brings about so soon."""
-    done, collapsed = compare(scene, start)
-    if collapsed is None:
-        assert 2 * done >= COLLISIONS_PER_PARTICLE * scene.n_particles
-        return
-    assert (scene.restitution, scene.contact_time) == (0.0, 0.0)
-    assert done >= 6
-    engine = Engine(scene, start)
-    assert engine.advance(math.inf, most_collisions=done + 1000) == loop.WATCH
-    assert engine.collisions > done
-    assert set(collapsed) <= set(engine.involved())
+def check(scene, start_of):
+    """Compare for ten collisions per particle; with r = t_c = 0 in as many pieces as collapses make it."""
+    wanted = math.ceil(COLLISIONS_PER_PARTICLE * scene.n_particles / 2)
+    done, realization = 0, 0
+    while done < wanted:
+        start = start_of(scene, realization)
+        more, collapsed = compare(scene, start, wanted - done)
+        done, realization = done + more, realization + 1
+        if collapsed is not None:
+            assert (scene.restitution, scene.contact_time) == (0.0, 0.0)
+            engine = Engine(scene, start)
+            engine.advance(math.inf, most_collisions=more + 50)
+            assert set(collapsed) <= set(engine.involved())
 
 
 @pytest.mark.parametrize("n_particles", [42, 64])
@@ -88,7 +85,7 @@ def check(scene, start):
 @pytest.mark.parametrize("area_fraction", FRACTIONS)
 def test_many_disks(area_fraction, restitution, contact_time, n_particles, start_of):
     scene = Scene(n_particles, area_fraction, restitution, contact_time)
-    check(scene, start_of(scene))
+    check(scene, start_of)
 
 
 @pytest.mark.parametrize("n_particles", [2, 3, 5])
@@ -98,14 +95,14 @@ def test_many_disks(area_fraction, restitution, contact_time, n_particles, start
 def test_few_disks(area_fraction, restitution, contact_time, n_particles, start_of):
     """The box is so small that a disk meets several images of another, and flies around the box in between."""
     scene = Scene(n_particles, area_fraction, restitution, contact_time)
-    check(scene, start_of(scene))
+    check(scene, start_of)
 
 
 @pytest.mark.parametrize(("n_particles", "aspect_ratio"), [(64, 4.0), (96, 10.0)])
-@pytest.mark.parametrize(("restitution", "contact_time"), [(1.0, 0.0), (0.8, 1.0e-5), (0.4, 1.0e-3)])
+@pytest.mark.parametrize(("restitution", "contact_time"), [(1.0, 0.0), (0.4, 1.0e-5)])
 @pytest.mark.parametrize("area_fraction", FRACTIONS)
 def test_elongated_boxes(area_fraction, restitution, contact_time, n_particles, aspect_ratio, start_of):
     scene = Scene(n_particles, area_fraction, restitution, contact_time, aspect_ratio=aspect_ratio)
-    start = start_of(scene)
-    assert start.box[0] / start.box[1] == pytest.approx(aspect_ratio, rel=0.5)
-    check(scene, start)
+    box = start_of(scene).box
+    assert box[0] / box[1] == pytest.approx(aspect_ratio, rel=0.5)
+    check(scene, start_of)

@@ -37,9 +37,7 @@ def brute_force_labels(positions, box, diameters, factor):
     pairs = [
         (i, j)
         for i, j in combinations(range(len(positions)), 2)
-        if (
-            np.linalg.norm(inside[i] - inside[j] + steps * box, axis=1) <= factor * (diameters[i] + diameters[j]) / 2
-        ).any()
+        if (np.linalg.norm(inside[i] - inside[j] + steps * box, axis=1) <= factor * (diameters[i] + diameters[j]) / 2).any()
     ]
     return components(len(positions), pairs)
 

@@ -21,9 +21,7 @@ def test_anisotropy():
 def test_kurtosis_of_known_distributions():
     rng = np.random.default_rng(3)
     maxwellian, uniform = rng.normal(size=200_000), rng.uniform(-1, 1, 200_000)
-    np.testing.assert_allclose(
-        observables.velocity_kurtosis(np.column_stack([maxwellian, uniform])), [3, 9 / 5], rtol=0.02
-    )
+    np.testing.assert_allclose(observables.velocity_kurtosis(np.column_stack([maxwellian, uniform])), [3, 9 / 5], rtol=0.02)
 
 
 def test_elastic_fractions():

@@ -43,9 +43,7 @@ def test_dilute_pressure_is_the_virial_series():
 def test_printed_elastic_fractions():
     rate = theory.enskog_rate(AREA_FRACTION_A, ENERGY_PER_MASS, 1e-3)
     contact_times = np.array([1e-3, 1e-4, 1e-2, 1e-5])
-    np.testing.assert_allclose(
-        theory.elastic_collision_fraction(contact_times, rate), [0.59, 0.085, 0.9999, 8.8e-3], rtol=0.01
-    )
+    np.testing.assert_allclose(theory.elastic_collision_fraction(contact_times, rate), [0.59, 0.085, 0.9999, 8.8e-3], rtol=0.01)
     n_e = theory.elastic_particle_fraction(contact_times, rate)
     np.testing.assert_allclose(n_e**2 + 2 * n_e * (1 - n_e), theory.elastic_collision_fraction(contact_times, rate))
 

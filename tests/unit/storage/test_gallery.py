@@ -21,9 +21,7 @@ def test_figures_and_tables_are_copied_under_their_names_with_their_origin(resul
     copies = gallery.collect(results)
     assert {path.name for path in copies} == {"fig8.png", "fig8.pdf", "powers.csv"}
     assert (results / "gallery/fig8.png").read_text() == "figures/fig8.png"
-    assert {path.name for path in (results / "gallery").iterdir()} == {path.name for path in copies} | {
-        "PROVENANCE.json"
-    }
+    assert {path.name for path in (results / "gallery").iterdir()} == {path.name for path in copies} | {"PROVENANCE.json"}
     origin = json.loads((results / "gallery/PROVENANCE.json").read_text())
     study = read(results / "studies/scan.nc")
     assert origin["studies"]["scan"]["content_sha256"] == study.attrs["content_sha256"]

@@ -28,9 +28,7 @@ def test_positions_come_back_within_a_step_of_the_packing(tmp_path):
             assert np.abs(step.values - expected).max() <= 1.01 * 3.0 / LEVELS
 
 
-@pytest.mark.parametrize(
-    "box", [(3.0, 0.7), (0.7, 3.0), (0.1 + 0.2, 0.3), (1.0, 0.5), (7.3e-2, 7.3e-2), (2.0**32 - 1, 2.0)]
-)
+@pytest.mark.parametrize("box", [(3.0, 0.7), (0.7, 3.0), (0.1 + 0.2, 0.3), (1.0, 0.5), (7.3e-2, 7.3e-2), (2.0**32 - 1, 2.0)])
 def test_positions_stay_inside_of_the_box(tmp_path, box):
     edges = np.array([[0.0, 0.0], np.nextafter(box, 0), box, np.array(box) * (1 - 1e-11)])
     write_positions(run_of(edges[None], box), tmp_path / "positions.nc")

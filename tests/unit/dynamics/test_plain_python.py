@@ -1,0 +1,88 @@
+"""The kernels as plain Python with checked indices (NUMBA_DISABLE_JIT=1) do bit for bit what the compiled ones do.
+
+Run as a program, this file writes the engine's arrays after some thousand events; the test lets it run in both modes.
+"""
+
+import math
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from gases import lattice_gas
+
+from granugas.dynamics.events.engine import Engine
+from granugas.dynamics.events.memory import COMPILED, Table, allocate
+from granugas.scene import Scene
+
+SCENES = {
+    "elastic dense": Scene(42, 0.7, restitution=1.0, contact_time=0.0),
+    "elastic dilute": Scene(42, 0.01, restitution=1.0, contact_time=0.0),
+    "shares": Scene(64, 0.25, restitution=1.0, contact_time=(1e-5, 1e-3)),
+    "contact time": Scene(64, 0.5, restitution=0.4, contact_time=1e-5),
+    "elongated": Scene(64, 0.25, restitution=0.9, contact_time=0.0, aspect_ratio=8.0),
+    "two": Scene(2, 0.3, restitution=1.0, contact_time=0.0),
+}
+COLLISIONS = 400
+
+
+def after_some_collisions(scene: Scene) -> dict[str, np.ndarray]:
+    """The whole state of the engine; it looks ahead as it does for large systems, which changes nothing."""
+    engine = Engine(scene, lattice_gas(scene))
+    engine.arrays["calendar"]["look_ahead"] = 1
+    engine.advance(math.inf, COLLISIONS)
+    return engine.arrays
+
+
+def write_all(folder: Path) -> None:
+    """One file a scene."""
+    for name, scene in SCENES.items():
+        np.savez(folder / f"{name}.npz", **after_some_collisions(scene))
+
+
+@pytest.fixture(scope="module")
+def plain(tmp_path_factory) -> Path:
+    folder = tmp_path_factory.mktemp("plain")
+    environment = os.environ | {"NUMBA_DISABLE_JIT": "1", "PYTHONPATH": str(Path(__file__).parents[2])}
+    subprocess.run([sys.executable, "-W", "error", __file__, str(folder)], check=True, env=environment, timeout=120)
+    return folder
+
+
+@pytest.mark.skipif(not COMPILED, reason="compares the other mode with this one")
+@pytest.mark.parametrize("name", SCENES)
+def test_both_modes_agree_bit_for_bit(plain, name):
+    compiled = after_some_collisions(SCENES[name])
+    with np.load(plain / f"{name}.npz") as other:
+        assert set(other) == set(compiled)
+        for table, rows in compiled.items():
+            if table != "near":  # scratch
+                assert rows.tobytes() == other[table].tobytes(), table
+
+
+def test_columns_check_their_indices_in_plain_python():
+    code = (
+        "import numpy as np; from granugas.dynamics.events.memory import Table;"
+        "t = Table(np.zeros(3, [('x', 'f8')])); t.x[2] = 1.0;"
+        "import sys\n"
+        "for k in (-1, 3):\n"
+        "    try: t.x[k]\n"
+        "    except IndexError as error: print(error)\n"
+    )
+    environment = os.environ | {"NUMBA_DISABLE_JIT": "1"}
+    said = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=environment, check=True)
+    assert said.stdout.splitlines() == ["x[-1] of 3 rows", "x[3] of 3 rows"]
+
+
+def test_tables_begin_with_a_cache_line():
+    for count in (1, 7, 1000):
+        rows = allocate(count, np.dtype([("x", "f8"), ("k", "i4")]))
+        assert rows.ctypes.data % 64 == 0
+        assert len(rows) == count
+        assert not rows["x"].any()
+        assert Table(rows).address == rows.ctypes.data
+
+
+if __name__ == "__main__":
+    write_all(Path(sys.argv[1]))
