@@ -35,9 +35,7 @@ def test_weak_dissipation_follows_haff():
     np.testing.assert_allclose(runs["kinetic_energy"].mean(axis=0), expected, rtol=0.02)
     by_collisions = theory.energy_after_collisions(runs["collisions_per_particle"], r)
     early = expected > 0.1
-    np.testing.assert_allclose(
-        runs["kinetic_energy"][:, early].mean(axis=0), by_collisions[:, early].mean(axis=0), rtol=0.0125
-    )
+    np.testing.assert_allclose(runs["kinetic_energy"][:, early].mean(axis=0), by_collisions[:, early].mean(axis=0), rtol=0.0125)
 
 
 def test_strong_dissipation_leaves_the_homogeneous_law_where_clusters_begin():

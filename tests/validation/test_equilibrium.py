@@ -100,15 +100,13 @@ def test_times_since_the_last_collision_are_exponential(papers_gas):
     expected = theory.elastic_particle_fraction(t_c, rate(PAPERS_AREA_FRACTION))
     np.testing.assert_allclose(papers_gas["elastic_particle_fraction"][1:].mean("time"), expected, rtol=0.02)
     long = CONTACT_TIMES >= 0.1
-    np.testing.assert_allclose(
-        papers_gas["elastic_particle_fraction"][1:, long].mean("time"), expected[long], rtol=0.01
-    )
+    np.testing.assert_allclose(papers_gas["elastic_particle_fraction"][1:, long].mean("time"), expected[long], rtol=0.01)
 
 
 def test_elastic_disks_are_the_fast_ones(papers_gas):
     """e_e = 5/4 n_e for t_c well below t_E (A Fig. 7); standard error .2 % at .01 t_E."""
-    short = papers_gas.isel(contact_time=CONTACT_TIMES <= 0.03, time=slice(1, None)).mean("time")
-    ratio = short["elastic_energy_fraction"] / short["elastic_particle_fraction"]
+    short = papers_gas.isel(contact_time=CONTACT_TIMES <= 0.03, time=slice(1, None))
+    ratio = short["elastic_energy_fraction"].mean("time") / short["elastic_particle_fraction"].mean("time")
     np.testing.assert_allclose(ratio, theory.ENERGY_OF_ELASTIC_PARTICLES, rtol=0.02)
 
 
@@ -142,10 +140,10 @@ def test_velocities_have_no_preferred_angle(papers_gas):
 @pytest.mark.full
 @pytest.mark.timeout(1200)
 def test_pressure_just_below_freezing():
-    """Z = pi P*/(4 nu), P*(.698) = 9.1693 (Engel et al. 2013); standard error .1 %, finite size included."""
+    """Z = pi P*/(4 nu), P*(.698) = 9.1693 (Engel et al. 2013); standard error .12 %, N = 1435 is .2 % below."""
     fluid = equilibrium(0.698, 140_000, samples=100)
     assert fluid["collisions_per_particle"][-1] >= 100_000
-    assert excess_pressure(fluid) == pytest.approx(np.pi * 9.1693 / (4 * 0.698) - 1, rel=6e-3)
+    assert excess_pressure(fluid) == pytest.approx(np.pi * 9.1693 / (4 * 0.698) - 1, rel=7e-3)
 
 
 def rate_by_pressure(run: xr.Dataset) -> float:
