@@ -22,7 +22,7 @@ figures: .venv/.installed
 	$(SNAKEMAKE)
 
 preview: .venv/.installed
-	$(SNAKEMAKE) --configfile config/config.yaml config/reduced.yaml
+	$(SNAKEMAKE) --configfile config/config.yaml config/reduced.yaml -- all check
 
 test: .venv/.installed
 	$(PYTEST)

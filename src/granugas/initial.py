@@ -7,10 +7,13 @@ from typing import Any
 
 import numpy as np
 
-from granugas.scene import Scene, SceneError
+from granugas.scene import CLOSE_PACKING, Scene, SceneError
 
 TOUCH = 1.0 + 1.0e-9
 """Least distance of two centres on a start lattice, in diameters."""
+
+DENSEST = {"square": math.pi / 4, "triangular": CLOSE_PACKING}
+"""Area fractions of touching disks."""
 
 MELTED_UP_TO = 0.70
 """Area fraction up to which a start is melted; above, the crystal is the stable phase and is kept."""
@@ -61,6 +64,10 @@ def start_lattice(scene: Scene) -> Lattice:
     if lattice.spacing >= scene.diameter * TOUCH:
         return lattice
     if scene.lattice != "auto":
+        if scene.area_fraction >= DENSEST[scene.lattice]:
+            raise SceneError(
+                "area_fraction", scene.area_fraction, f"a {scene.lattice} lattice holds less than {DENSEST[scene.lattice]:.4f}"
+            )
         raise SceneError("n_particles", scene.n_particles, _nearest_advice(scene))
     largest = scene.area_fraction * (lattice.spacing / (scene.diameter * TOUCH)) ** 2
     raise SceneError(

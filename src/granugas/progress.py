@@ -53,5 +53,5 @@ class Progress:
         text = f"t = {engine.time:.4g} s, {engine.collisions} collisions"
         if math.isfinite(self._until) and engine.time > 0:
             left = (now - self._started) * (self._until / engine.time - 1)
-            text += f", {left:.0f} s to go"
+            text += f" ({engine.time / self._until:.0%}), {left:.0f} s to go"
         return text

@@ -90,7 +90,8 @@ class Record:
         keep["position"][k], keep["velocity"][k] = state.position, state.velocity
         keep["last_collision_time"][k] = state.last_collision_time
         keep["last_collision_interval"][k] = state.last_collision_interval
-        keep["collision_frequency"][k] = (state.collisions - window.collisions) / (state.time - window.time)
+        if state.time > window.time:  # at t = 0 there is none
+            keep["collision_frequency"][k] = (state.collisions - window.collisions) / (state.time - window.time)
 
     def dataset(self) -> xr.Dataset:
         """All that was written, without the attributes of the variables."""

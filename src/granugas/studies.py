@@ -1,101 +1,24 @@
-"""Studies: grids of runs as a configuration describes them, each run under an address that follows from its physics.
+"""Studies: grids of runs as a configuration describes them.
 
 Pure data and light: nothing here simulates, reads results or knows of the workflow.
 """
 
 import ast
-import hashlib
 import itertools
-import json
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from pathlib import Path, PurePath
 from typing import Any
 
 from granugas.configuration import MISSING, ConfigError, check_structure, unknown, with_defaults
+from granugas.runs import DEFAULTS, Run, digest_of
 from granugas.scene import SCENE_KEYS, Scene, SceneError
 
-DEFAULTS = {field.name: field.default for field in fields(Scene)}
 FLOAT_KEYS = {key for key, value in DEFAULTS.items() if isinstance(value, float)}
-GRID_KEYS = tuple(SCENE_KEYS[: SCENE_KEYS.index("lattice") + 1])
-"""Keys that every scene has; the others, effects, enter an address only where they are not the default."""
-
-START_KEYS = (*(key for key in SCENE_KEYS if key not in ("restitution", "contact_time", "dynamics")),)
-"""Keys that decide a start state."""
-
-START_SECONDS = 2.0
-SECONDS_PER_COLLISION = 1e-6
-"""What a job costs before its first collision, and each collision: to plan with."""
 
 OVERVIEW = "overview"
 """Figure file that draws any study."""
-
-
-@dataclass(frozen=True)
-class Run:
-    """One realization of one point of a grid.
-
-    Attributes:
-        scene: what is simulated; at r = 1 with all contact times of its grid.
-        seed, realization: of the random stream.
-        until: limits, `time` in s and `collisions_per_particle`, either or both.
-        samples: `spacing`, `count`, `first` and `axis` of the sampling times.
-        snapshots: times in s, ascending.
-        equilibration: collisions per particle before the start state is judged.
-        keep_positions: whether positions at the sampling times are kept.
-    """
-
-    scene: Scene
-    seed: int
-    realization: int
-    until: Mapping[str, float]
-    samples: Mapping[str, Any]
-    snapshots: tuple[float, ...]
-    equilibration: float
-    keep_positions: bool
-
-    @property
-    def address(self) -> str:
-        """Name of the run's files: what people look for, then a digest of everything that decides the result."""
-        times = self.scene.contact_times
-        contact_time = f"{times[0]:g}" if len(times) == 1 else f"{len(times)}values"
-        name = f"{self._label}_r{self.scene.restitution:g}_tc{contact_time}_s{self.realization}"
-        content = {
-            "scene": {key: value for key, value in self.scene.as_dict().items() if _counts(key, value)},
-            "until": self.until,
-            "samples": self.samples,
-            "snapshots": self.snapshots,
-            "keep_positions": self.keep_positions,
-        }
-        kept = "_xy" if self.keep_positions else ""
-        return f"{name}_{digest_of(self._stream | content)}{kept}"
-
-    @property
-    def state_address(self) -> str:
-        """Name of the start state's file, which runs with other r, t_c or limits share."""
-        scene = self.scene.as_dict()
-        content = {key: scene[key] for key in START_KEYS if _counts(key, scene[key])}
-        return f"{self._label}_s{self.realization}_{digest_of(self._stream | {'scene': content})}"
-
-    @property
-    def _label(self) -> str:
-        return f"n{self.scene.n_particles}_nu{self.scene.area_fraction:g}"
-
-    @property
-    def _stream(self) -> dict[str, Any]:
-        return {"seed": self.seed, "realization": self.realization, "equilibration": self.equilibration}
-
-    @property
-    def cost(self) -> float:
-        """Expected s on one core: a particle collides tau times in an elastic gas, about 20 sqrt(tau) in clusters."""
-        nu, w = self.scene.area_fraction, self.scene.velocity_half_width
-        g = (1 - 7 * nu / 16) / (1 - nu) ** 2
-        rate = math.sqrt(4 / (3 * math.pi)) * w / (self.scene.diameter / 2) * 2 * nu * g
-        tau = rate * self.until.get("time", math.inf)
-        collisions = tau if self.scene.restitution == 1 else min(tau, 20 * math.sqrt(tau))
-        collisions = min(collisions, self.until.get("collisions_per_particle", math.inf))
-        return START_SECONDS + SECONDS_PER_COLLISION * self.scene.n_particles * collisions / 2
 
 
 @dataclass(frozen=True)
@@ -194,11 +117,6 @@ def figures_in(folder: Path) -> dict[str, tuple[str, ...]]:
     """
     files = [path for path in sorted(folder.glob("*.py")) if path.stem != OVERVIEW and path.stem[0] != "_"]
     return {path.stem: _studies_of_figure(path) for path in files}
-
-
-def digest_of(content: Any) -> str:
-    """Twelve hexadecimal digits that are equal where numbers agree to 12 significant digits, 5 and 5.0 too."""
-    return hashlib.sha256(json.dumps(_canonical(content), sort_keys=True).encode()).hexdigest()[:12]
 
 
 def _study(name: str, block: Mapping[str, Any], seed: int) -> Study:
@@ -309,16 +227,3 @@ def _rounded(value: float) -> float:
         return float(f"{float(value):.12g}")
     except OverflowError:
         return math.inf
-
-
-def _counts(key: str, value: Any) -> bool:
-    """Whether a key enters an address."""
-    return key in GRID_KEYS or value != DEFAULTS[key]
-
-
-def _canonical(value: Any) -> Any:
-    if isinstance(value, Mapping):
-        return {key: _canonical(item) for key, item in value.items()}
-    if isinstance(value, (list, tuple)):
-        return [_canonical(item) for item in value]
-    return f"{value:.12g}" if isinstance(value, float) else str(value)

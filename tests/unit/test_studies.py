@@ -15,8 +15,9 @@ from hypothesis import strategies as st
 
 from granugas import studies
 from granugas.configuration import ConfigError
+from granugas.runs import GRID_KEYS, Run, digest_of
 from granugas.scene import SCENE_KEYS, Scene
-from granugas.studies import Run, digest_of, figures_in, load
+from granugas.studies import figures_in, load
 
 ROOT = Path(__file__).resolve().parents[2]
 SCHEMA = yaml.safe_load((ROOT / "workflow/schemas/config.schema.yaml").read_text())
@@ -196,7 +197,7 @@ def test_a_figure_without_studies_is_refused(tmp_path: Path) -> None:
 def test_the_schema_and_the_scene_have_the_same_keys() -> None:
     study = SCHEMA["$defs"]["study"]["properties"]
     assert tuple(study["grid"]["properties"]) == SCENE_KEYS
-    assert set(study["scene"]["properties"]) == set(SCENE_KEYS) - set(studies.GRID_KEYS)
+    assert set(study["scene"]["properties"]) == set(SCENE_KEYS) - set(GRID_KEYS)
 
 
 def test_every_key_of_the_schema_is_described_in_the_readme() -> None:

@@ -76,6 +76,7 @@ WRONG = [
         "allowed once",
     ),
     (STUDY % "realizations: 0", "studies.scan.realizations", "0", "an integer >= 1 and <= 10000"),
+    (STUDY % "realizations: true", "studies.scan.realizations", "True", "an integer >= 1"),
     (STUDY % "realizations: 2.0", "studies.scan.realizations", "2.0", "an integer >= 1"),
     (STUDY % "realisations: 2", "studies.scan.realisations", "2", "did you mean realizations?"),
     (STUDY % "until: null", "studies.scan.until", "None", "a block with the keys time, collisions_per_particle"),
@@ -87,6 +88,7 @@ WRONG = [
         "a number > 0 ('1e3' is text; as a number write 1000)",
     ),
     (STUDY % "until: {time: .inf}", "studies.scan.until.time", "inf", "a number > 0"),
+    (STUDY % "until: {time: true}", "studies.scan.until.time", "True", "a number > 0"),
     (STUDY % "until: {tme: 1}", "studies.scan.until.tme", "1", "did you mean time?"),
     (
         STUDY % "until: {collisions_per_particle: -3}",
@@ -162,9 +164,7 @@ def test_the_table_starts_from_a_good_configuration() -> None:
 def test_a_duplicate_key_is_found_in_the_file(tmp_path: Path) -> None:
     file = tmp_path / "mine.yaml"
     file.write_text("studies:\n  scan:\n    grid: {restitution: 0.8, area_fraction: 0.2,\n      restitution: [0.4]}\n")
-    with pytest.raises(
-        ConfigError, match=r"^studies.scan.grid.restitution = '\[0.4\]': .*lines 3 and 4.* allowed is once"
-    ):
+    with pytest.raises(ConfigError, match=r"^studies.scan.grid.restitution = '\[0.4\]': .*lines 3 and 4.* allowed is once"):
         refuse_duplicate_keys([file])
 
 

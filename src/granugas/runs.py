@@ -1,0 +1,105 @@
+"""One run of a study, and the addresses of its files, which follow from its physics and from nothing else."""
+
+import hashlib
+import json
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+from typing import Any
+
+from granugas.scene import SCENE_KEYS, Scene
+
+DEFAULTS = {field.name: field.default for field in fields(Scene)}
+GRID_KEYS = tuple(SCENE_KEYS[: SCENE_KEYS.index("lattice") + 1])
+"""Keys that every scene has; the others, effects, enter an address only where they are not the default."""
+
+START_KEYS = (*(key for key in SCENE_KEYS if key not in ("restitution", "contact_time", "dynamics")),)
+"""Keys that decide a start state."""
+
+START_SECONDS = 2.0
+SECONDS_PER_COLLISION = 1e-6
+"""What a job costs before its first collision, and each collision: to plan with."""
+
+
+@dataclass(frozen=True)
+class Run:
+    """One realization of one point of a grid.
+
+    Attributes:
+        scene: what is simulated; at r = 1 with all contact times of its grid.
+        seed, realization: of the random stream.
+        until: limits, `time` in s and `collisions_per_particle`, either or both.
+        samples: `spacing`, `count`, `first` and `axis` of the sampling times.
+        snapshots: times in s, ascending.
+        equilibration: collisions per particle before the start state is judged.
+        keep_positions: whether positions at the sampling times are kept.
+    """
+
+    scene: Scene
+    seed: int
+    realization: int
+    until: Mapping[str, float]
+    samples: Mapping[str, Any]
+    snapshots: tuple[float, ...]
+    equilibration: float
+    keep_positions: bool
+
+    @property
+    def address(self) -> str:
+        """Name of the run's files: what people look for, then a digest of everything that decides the result."""
+        times = self.scene.contact_times
+        contact_time = f"{times[0]:g}" if len(times) == 1 else f"{len(times)}values"
+        name = f"{self._label}_r{self.scene.restitution:g}_tc{contact_time}_s{self.realization}"
+        content = {
+            "scene": {key: value for key, value in self.scene.as_dict().items() if _counts(key, value)},
+            "until": self.until,
+            "samples": self.samples,
+            "snapshots": self.snapshots,
+            "keep_positions": self.keep_positions,
+        }
+        kept = "_xy" if self.keep_positions else ""
+        return f"{name}_{digest_of(self._stream | content)}{kept}"
+
+    @property
+    def state_address(self) -> str:
+        """Name of the start state's file, which runs with other r, t_c or limits share."""
+        scene = self.scene.as_dict()
+        content = {key: scene[key] for key in START_KEYS if _counts(key, scene[key])}
+        return f"{self._label}_s{self.realization}_{digest_of(self._stream | {'scene': content})}"
+
+    @property
+    def _label(self) -> str:
+        return f"n{self.scene.n_particles}_nu{self.scene.area_fraction:g}"
+
+    @property
+    def _stream(self) -> dict[str, Any]:
+        return {"seed": self.seed, "realization": self.realization, "equilibration": self.equilibration}
+
+    @property
+    def cost(self) -> float:
+        """Expected s on one core: a particle collides tau times in an elastic gas, about 20 sqrt(tau) in clusters."""
+        nu, w = self.scene.area_fraction, self.scene.velocity_half_width
+        g = (1 - 7 * nu / 16) / (1 - nu) ** 2
+        rate = math.sqrt(4 / (3 * math.pi)) * w / (self.scene.diameter / 2) * 2 * nu * g
+        tau = rate * self.until.get("time", math.inf)
+        collisions = tau if self.scene.restitution == 1 else min(tau, 20 * math.sqrt(tau))
+        collisions = min(collisions, self.until.get("collisions_per_particle", math.inf))
+        return START_SECONDS + SECONDS_PER_COLLISION * self.scene.n_particles * collisions / 2
+
+
+def digest_of(content: Any) -> str:
+    """Twelve hexadecimal digits that are equal where numbers agree to 12 significant digits, 5 and 5.0 too."""
+    return hashlib.sha256(json.dumps(_canonical(content), sort_keys=True).encode()).hexdigest()[:12]
+
+
+def _counts(key: str, value: Any) -> bool:
+    """Whether a key enters an address."""
+    return key in GRID_KEYS or value != DEFAULTS[key]
+
+
+def _canonical(value: Any) -> Any:
+    if isinstance(value, Mapping):
+        return {key: _canonical(item) for key, item in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_canonical(item) for item in value]
+    return f"{value:.12g}" if isinstance(value, float) else str(value)

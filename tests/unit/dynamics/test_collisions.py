@@ -1,0 +1,106 @@
+"""One collision: A Eqs. 2, 3, 4, 14 and 15, term by term."""
+
+import math
+
+import numpy as np
+import pytest
+from numba import njit
+
+from granugas.dynamics.events.collisions import collide
+from granugas.dynamics.events.effects.constant import Constant, Elastic
+from granugas.dynamics.events.effects.contact_time import ContactTime
+
+NOW = 0.25
+
+
+@njit(error_model="numpy")
+def collided(gas, now):
+    return collide(gas, 0, 1, now)
+
+
+def pair(gas_of, seed, rule, box=(9.0, 7.0)):
+    """Two approaching disks that touch at NOW, anywhere in the box, and the unit vector from the first to the second."""
+    rng = np.random.default_rng(seed)
+    angle = rng.uniform(0, 2 * math.pi)
+    normal = np.array([math.cos(angle), math.sin(angle)])
+    velocity = rng.normal(size=(2, 2))
+    if (velocity[1] - velocity[0]) @ normal > 0:
+        velocity = velocity[::-1]
+    first = rng.uniform(0, box)
+    touching = np.array([first, first + normal]) - NOW * velocity
+    gas = gas_of(np.mod(touching, box), velocity, box, rule=rule)
+    return gas, velocity, normal
+
+
+def velocities(gas):
+    return np.stack([gas.disks.rows["vx"], gas.disks.rows["vy"]], axis=1)
+
+
+@pytest.mark.parametrize("box", [(9.0, 7.0), (2.3, 2.6), (4.4, 3.2)])
+@pytest.mark.parametrize("r", [1.0, 0.8, 0.4, 0.0])
+def test_velocities(r, box, gas_of):
+    """Across the edges of the box too: some of the pairs lie there."""
+    for seed in range(40):
+        gas, before, n = pair(gas_of, seed, Constant(r), box)
+        since, u_n = collided(gas, NOW)
+        after = velocities(gas)
+        u, u_after = before[1] - before[0], after[1] - after[0]
+        assert u_n == pytest.approx(u @ n, rel=1e-12)
+        assert since == math.inf
+        np.testing.assert_allclose(after[0], before[0] + (1 + r) / 2 * (u @ n) * n, rtol=0, atol=1e-13)  # A Eq. 2
+        np.testing.assert_allclose(after[1], before[1] - (1 + r) / 2 * (u @ n) * n, rtol=0, atol=1e-13)
+        np.testing.assert_allclose(after.sum(axis=0), before.sum(axis=0), rtol=0, atol=1e-14)  # momentum
+        assert u_after @ n == pytest.approx(-r * (u @ n), abs=1e-13)  # A Eq. 3
+        tangent = np.array([-n[1], n[0]])
+        assert u_after @ tangent == pytest.approx(u @ tangent, abs=1e-13)
+        loss = 0.5 * (np.sum(before**2) - np.sum(after**2))
+        assert loss == pytest.approx((1 - r**2) / 4 * (u @ n) ** 2, abs=1e-13)
+        assert gas.tally.loss == pytest.approx(loss, abs=1e-13)
+        assert gas.tally.loss_time == pytest.approx(loss * NOW, abs=1e-13)
+
+
+def test_momentum_that_is_passed_on(gas_of):
+    """dp_a l_b of both partners (A Eq. 15): l points from the centre of each to the contact."""
+    for seed in range(20):
+        gas, before, n = pair(gas_of, seed, Constant(0.7))
+        collided(gas, NOW)
+        dp = velocities(gas) - before
+        l = np.array([0.5 * n, -0.5 * n])  # noqa: E741
+        stress = dp.T @ l
+        tally = gas.tally
+        np.testing.assert_allclose([[tally.xx, tally.xy], [tally.yx, tally.yy]], stress, rtol=0, atol=1e-13)
+
+
+def test_counters_and_clocks(gas_of):
+    gas, *_ = pair(gas_of, 1, Elastic())
+    gas.clocks.rows["last"] = [-0.5, 0.125]
+    since, _ = collided(gas, NOW)
+    assert since == 0.125
+    assert gas.clocks.rows["last"].tolist() == [NOW, NOW]
+    assert gas.clocks.rows["interval"].tolist() == [0.75, 0.125]
+    assert gas.disks.rows["t"].tolist() == [NOW, NOW]
+    assert gas.disks.rows["collisions"].tolist() == [1, 1]
+    assert gas.tally.collisions == 1
+
+
+@pytest.mark.parametrize(
+    ("last", "elastic"),
+    [
+        ((-1.0, -1.0), False),
+        ((0.125, -1.0), True),  # one partner is enough, whichever
+        ((-1.0, 0.125), True),
+        ((0.0, -1.0), True),  # "no longer than t_c"
+        ((np.nextafter(0.0, -1.0) - 1e-16, -1.0), False),
+        ((-math.inf, -math.inf), False),
+        ((-math.inf, 0.2), True),
+    ],
+)
+def test_a_collision_within_t_c_is_elastic(last, elastic, gas_of):
+    """A Eq. 4."""
+    gas, before, n = pair(gas_of, 2, ContactTime(0.4, 0.25))
+    gas.clocks.rows["last"] = last
+    _, u_n = collided(gas, NOW)
+    after = velocities(gas)
+    assert (after[1] - after[0]) @ n == pytest.approx(-(1.0 if elastic else 0.4) * u_n, rel=1e-12)
+    assert gas.tally.elastic == elastic
+    assert (gas.tally.loss == 0) == elastic

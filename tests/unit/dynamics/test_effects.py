@@ -1,0 +1,111 @@
+"""Rules and watches, in runs of few disks."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from gases import lattice_gas
+
+from granugas.dynamics.events import loop
+from granugas.dynamics.events.effects.collapse import UNRESOLVED, collapse_watch
+from granugas.dynamics.events.effects.constant import Constant, Elastic
+from granugas.dynamics.events.effects.contact_time import ContactTime
+from granugas.dynamics.events.effects.elastic_share import ElasticShare
+from granugas.dynamics.events.effects.recorder import recorder
+from granugas.dynamics.events.engine import Engine, rule_of
+from granugas.dynamics.state import State
+from granugas.equilibrate import at_rest
+from granugas.scene import Scene
+
+GAS = Scene(100, 0.4, restitution=1.0, contact_time=0.0)
+
+
+def ran(scene, rule, collisions=3000) -> Engine:
+    engine = Engine(scene, lattice_gas(scene), rule=rule)
+    engine.advance(math.inf, collisions)
+    return engine
+
+
+def test_shares_count_what_each_contact_time_alone_would():
+    times = (0.0, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2)
+    scene = replace(GAS, contact_time=times)
+    together = ran(scene, rule_of(scene))
+    alone = [ran(GAS, ContactTime(1.0, t_c)).take_tally().elastic[0] for t_c in times]
+    counted = together.take_tally().elastic
+    assert counted.tolist() == alone
+    assert counted[0] == 0 < counted[1] < counted[-1] <= 3000
+    assert together.take_tally().elastic.tolist() == [0] * len(times)  # taken is taken
+
+
+def test_elastic_disks_collide_alike_under_every_rule():
+    scene = replace(GAS, contact_time=(1e-5, 1e-3))
+    rules = [Elastic(), Constant(1.0), ContactTime(1.0, 1e-4), ContactTime(0.3, math.inf), rule_of(scene)]
+    first, *others = (ran(GAS, rule).arrays["disks"].tobytes() for rule in rules)
+    assert isinstance(rules[-1], ElasticShare)
+    assert all(other == first for other in others)
+
+
+def test_without_a_contact_time_the_tc_rule_is_the_constant_one():
+    assert ran(GAS, ContactTime(0.8, 0.0)).arrays["disks"].tobytes() == ran(GAS, Constant(0.8)).arrays["disks"].tobytes()
+
+
+def test_the_clock_runs_on_when_the_origin_of_times_moves():
+    """An elastic fraction that is as large late as early: the clocks are relative to the same origin as the rest."""
+    engine = Engine(GAS, lattice_gas(GAS), rule=ContactTime(1.0, 2e-4))
+    engine.advance(1.0)
+    early = engine.take_tally()
+    engine.advance(3.0)
+    late = engine.take_tally()
+    assert engine.arrays["calendar"]["base"][0] > 2.0
+    share = [tally.elastic[0] / tally.collisions for tally in (early, late)]
+    assert share[1] == pytest.approx(share[0], rel=0.02)
+    assert 0.1 < share[0] < 0.9
+
+
+def beads(gap: float = 0.3) -> State:
+    """Three disks in a row: the outer two fly towards the one in the middle, which rests."""
+    position = np.array([[4.0 - gap, 5.0], [5.0, 5.0], [6.0 + gap * 1.1, 5.0]])
+    velocity = np.array([[1.0, 0.0], [0.0, 0.0], [-1.0, 0.0]])
+    return at_rest(position, velocity, (10.0, 10.0))
+
+
+def bead_run(r: float, rule=None) -> tuple[int, Engine]:
+    scene = Scene(3, 0.02, restitution=r, contact_time=0.0, diameter=1.0)
+    engine = Engine(scene, beads(), rule=rule, watch=collapse_watch())
+    return engine.advance(3.0), engine
+
+
+@pytest.mark.parametrize("r", [0.0, 0.03, 0.06])
+def test_three_beads_collapse_below_the_exact_bound(r):
+    """r < 7 - 4 sqrt(3) = .0718 (A section 2.1; exact for three free beads)."""
+    why, engine = bead_run(r)
+    assert why == loop.WATCH
+    assert engine.collisions >= UNRESOLVED
+    assert engine.time < 3.0
+    assert engine.involved().tolist() == [0, 1, 2]
+
+
+@pytest.mark.parametrize("r", [0.09, 0.2, 0.8])
+def test_three_beads_part_above_it(r):
+    why, engine = bead_run(r)
+    assert why == loop.TIME
+    assert engine.collisions < 50
+    assert len(engine.involved()) == 0
+
+
+def test_a_contact_time_avoids_the_collapse():
+    why, engine = bead_run(0.03, ContactTime(0.03, 1e-6))
+    assert why == loop.TIME
+    assert engine.collisions < 50
+
+
+def test_the_recorder_writes_every_collision_down():
+    scene = replace(GAS, n_particles=20)
+    engine = Engine(scene, lattice_gas(scene), watch=recorder(200))
+    assert engine.advance(math.inf) == loop.WATCH
+    seen = engine.watch.seen.rows
+    assert engine.collisions == 200 == engine.watch.count.n
+    assert np.all(seen["i"] < seen["j"])
+    np.testing.assert_array_equal(np.bincount(np.concatenate([seen["i"], seen["j"]]), minlength=20), engine.state().collisions)
+    assert np.all(np.diff(seen["time"]) > 0)
