@@ -97,7 +97,7 @@ def test_counters_and_clocks(gas_of):
 )
 def test_a_collision_within_t_c_is_elastic(last, elastic, gas_of):
     """A Eq. 4."""
-    gas, before, n = pair(gas_of, 2, ContactTime(0.4, 0.25))
+    gas, _, n = pair(gas_of, 2, ContactTime(0.4, 0.25))
     gas.clocks.rows["last"] = last
     _, u_n = collided(gas, NOW)
     after = velocities(gas)

@@ -1,0 +1,181 @@
+"""Start lattices hold their disks without an overlap or say what would fit; start velocities are what both papers start from."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.spatial import cKDTree
+
+from granugas.initial import check_lattice, random_stream, rescaled, sites, start_lattice, start_velocities
+from granugas.scene import CLOSE_PACKING, Scene, SceneError
+
+RNG = np.random.default_rng
+
+
+def least_distance(position, box):
+    """Of two disks, or of a disk and its own image."""
+    if len(position) == 1:
+        return min(box)
+    near = cKDTree(position, boxsize=box).query(position, 2)[0][:, 1]
+    return min(*box, near.min())
+
+
+def check_start(scene):
+    """All disks inside of a box of the right area, no two overlap."""
+    lattice = start_lattice(scene)
+    position = sites(lattice, scene.n_particles, RNG(0))
+    assert position.shape == (scene.n_particles, 2)
+    assert np.all((position >= 0) & (position < lattice.box))
+    assert lattice.box[0] * lattice.box[1] >= scene.area * (1 - 1e-12)
+    assert least_distance(position, lattice.box) >= scene.diameter
+    assert least_distance(position, lattice.box) == pytest.approx(lattice.spacing) or scene.n_particles < lattice.nx * lattice.ny
+    return lattice
+
+
+@pytest.mark.parametrize("area_fraction", [0.001, 0.2267, 0.5, 0.7, 0.75])
+@pytest.mark.parametrize("n_particles", [*range(6, 31), 42, 64, 97, 378, 1009, 1435, 5740])
+def test_any_number_of_disks(n_particles, area_fraction):
+    scene = Scene(n_particles=n_particles, area_fraction=area_fraction)
+    try:
+        lattice = check_start(scene)
+    except SceneError as error:
+        assert n_particles < 31, error
+        assert area_fraction >= 0.7, error
+        return
+    assert lattice.box[0] * lattice.box[1] == pytest.approx(scene.area)
+
+
+@pytest.mark.parametrize("n_particles", [64, 378, 1009, 5740, 10_000])
+@pytest.mark.parametrize("area_fraction", [0.8, 0.85])
+def test_dense_starts(n_particles, area_fraction):
+    assert check_start(Scene(n_particles=n_particles, area_fraction=area_fraction)).kind == "triangular"
+
+
+@pytest.mark.parametrize("n_particles", [1, 2, 3, 4, 5])
+@pytest.mark.parametrize("area_fraction", [0.001, 0.1, 0.3, 0.4])
+def test_few_disks(n_particles, area_fraction):
+    check_start(Scene(n_particles=n_particles, area_fraction=area_fraction))
+
+
+@pytest.mark.parametrize("aspect_ratio", [0.1, 0.5, 4.0, 10.0])
+@pytest.mark.parametrize("area_fraction", [0.05, 0.5, 0.7])
+def test_elongated_boxes_are_as_asked(aspect_ratio, area_fraction):
+    lattice = check_start(Scene(n_particles=200, area_fraction=area_fraction, aspect_ratio=aspect_ratio))
+    assert lattice.box[0] / lattice.box[1] == pytest.approx(aspect_ratio)
+
+
+@pytest.mark.parametrize(
+    ("n_particles", "columns", "rows"),
+    [(42, 6, 7), (378, 18, 21), (1435, 35, 41), (5740, 70, 82), (22960, 140, 164), (97776, 291, 336), (16680, 120, 139)],
+)
+def test_the_triangular_lattices_of_paper_a(n_particles, columns, rows):
+    """Spacing 2 d, nu = pi / (8 sqrt 3); odd numbers of rows leave a seam."""
+    scene = Scene(n_particles=n_particles, area_fraction=math.pi / (8 * math.sqrt(3)), lattice="triangular")
+    lattice = check_start(scene)
+    assert (lattice.kind, lattice.nx, lattice.ny) == ("triangular", columns, rows)
+    assert lattice.box[0] == pytest.approx(columns * 2e-3)
+    assert lattice.box[1] == pytest.approx(rows * 2e-3 * math.sqrt(3) / 2)
+
+
+def test_the_square_lattice_of_paper_b():
+    lattice = check_start(Scene(n_particles=784, area_fraction=784 * math.pi / 4 / 50**2, lattice="square", diameter=2e-3))
+    assert (lattice.nx, lattice.ny) == (28, 28)
+    assert lattice.box == pytest.approx((0.1, 0.1))
+
+
+@pytest.mark.parametrize("n_particles", [5, 7, 42, 1435])
+@pytest.mark.parametrize("area_fraction", [0.88, 0.9])
+def test_a_refusal_names_the_largest_area_fraction(n_particles, area_fraction):
+    scene = Scene(n_particles=n_particles, area_fraction=area_fraction)
+    try:
+        check_start(scene)
+    except SceneError as error:
+        assert error.key == "area_fraction"
+        assert str(n_particles) in error.allowed
+        largest = float(error.allowed.split()[-1])
+        assert largest < area_fraction
+        check_lattice(replace(scene, area_fraction=largest - 1e-4))
+
+
+@pytest.mark.parametrize(("n_particles", "area_fraction"), [(5, 0.8), (7, 0.85), (23, 0.89)])
+def test_what_does_not_fit_is_refused(n_particles, area_fraction):
+    with pytest.raises(SceneError, match=f"area_fraction = {area_fraction}: {n_particles} disks fit on a lattice up to 0\\."):
+        check_lattice(Scene(n_particles=n_particles, area_fraction=area_fraction))
+
+
+@pytest.mark.parametrize(("lattice", "n_particles", "area_fraction"), [("square", 97, 0.5), ("triangular", 1009, 0.7)])
+def test_a_refused_number_comes_with_the_nearest_that_fits(lattice, n_particles, area_fraction):
+    scene = Scene(n_particles=n_particles, area_fraction=area_fraction, lattice=lattice)
+    with pytest.raises(SceneError, match=f"n_particles = {n_particles}: .*lattice = 'auto' takes any number") as raised:
+        check_lattice(scene)
+    nearest = int(raised.value.allowed.split("nearest that fits is ")[1].split(";")[0])
+    check_start(replace(scene, n_particles=nearest))
+    for between in range(1, abs(nearest - n_particles)):
+        for n in (n_particles - between, n_particles + between):
+            with pytest.raises(SceneError):
+                check_lattice(replace(scene, n_particles=n))
+
+
+@pytest.mark.parametrize(
+    ("lattice", "largest", "said"), [("square", math.pi / 4, "0.7854"), ("triangular", CLOSE_PACKING, "0.9069")]
+)
+def test_no_number_fits_on_touching_sites(lattice, largest, said):
+    with pytest.raises(SceneError, match=f"a {lattice} lattice holds less than {said}"):
+        check_lattice(Scene(n_particles=100, area_fraction=largest, lattice=lattice))
+
+
+def test_empty_sites_lie_anywhere():
+    lattice = start_lattice(Scene(n_particles=97, area_fraction=0.2))
+    places = {tuple(map(tuple, sites(lattice, 97, RNG(seed)))) for seed in range(5)}
+    assert lattice.nx * lattice.ny > 97
+    assert len(places) == 5
+
+
+@pytest.mark.parametrize("n_particles", [2, 3, 42, 5740])
+def test_velocities(n_particles):
+    scene = Scene(n_particles=n_particles, velocity_half_width=0.3, area_fraction=0.1)
+    velocity = start_velocities(scene, RNG(1))
+    energy = 0.5 * np.sum(velocity**2)
+    assert energy == pytest.approx(n_particles * 0.3**2 / 3, rel=1e-14)
+    np.testing.assert_allclose(velocity.sum(axis=0), 0, atol=1e-13 * n_particles)
+
+
+def test_velocity_components_are_uniform():
+    components = np.sort(start_velocities(Scene(n_particles=20_000), RNG(2)), axis=0) / 0.5
+    np.testing.assert_allclose(components, np.linspace(-1, 1, 20_000)[:, None].repeat(2, axis=1), atol=0.02)
+
+
+def test_a_single_disk_keeps_its_momentum():
+    velocity = start_velocities(Scene(n_particles=1), RNG(3))
+    assert np.hypot(*velocity[0]) == pytest.approx(0.5 * math.sqrt(2 / 3))
+
+
+def test_rescaling_keeps_directions():
+    velocity = RNG(4).normal(size=(50, 2))
+    scaled = rescaled(velocity, 0.5)
+    assert 0.5 * np.sum(scaled**2) == pytest.approx(50 * 0.25 / 3, rel=1e-14)
+    assert np.ptp(scaled / velocity) < 1e-14
+
+
+def drawn(scene=Scene(), seed=1, realization=0):  # noqa: B008
+    return random_stream(scene, seed, realization).random(4).tolist()
+
+
+@pytest.mark.parametrize("other", [{"restitution": 0.9}, {"contact_time": 0.0}, {"restitution": 1.0, "contact_time": (1e-3, 1e-5)}])
+def test_the_random_stream_does_not_depend_on_the_dissipation(other):
+    assert drawn(Scene(**other)) == drawn()
+
+
+@pytest.mark.parametrize(
+    "other",
+    [
+        {"seed": 2},
+        {"realization": 1},
+        {"scene": Scene(n_particles=5741)},
+        {"scene": Scene(area_fraction=0.2268)},
+        {"scene": Scene(lattice="triangular")},
+    ],
+)
+def test_the_random_stream_depends_on_the_start(other):
+    assert drawn(**other) != drawn()

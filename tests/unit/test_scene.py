@@ -1,0 +1,92 @@
+"""Scenes are checked when they are made; a wrong value is named with what is allowed."""
+
+import math
+from dataclasses import FrozenInstanceError
+
+import pytest
+
+from granugas.scene import CLOSE_PACKING, SCENE_KEYS, Scene, SceneError, scene_from
+
+
+def test_the_defaults_are_the_central_case_of_paper_a():
+    scene = Scene()
+    assert (scene.n_particles, scene.area_fraction, scene.restitution, scene.contact_time) == (5740, 0.2267, 0.4, 1e-5)
+    assert (scene.diameter, scene.velocity_half_width) == (1e-3, 0.5)
+
+
+def test_the_area_follows_from_the_area_fraction():
+    scene = Scene(n_particles=100, area_fraction=0.3, diameter=2e-3)
+    assert 100 * math.pi * 1e-6 / scene.area == pytest.approx(0.3)
+
+
+def test_a_scene_is_a_value():
+    assert Scene(n_particles=7) == Scene(n_particles=7) != Scene(n_particles=8)
+    assert len({Scene(n_particles=7), Scene(n_particles=7)}) == 1
+    with pytest.raises(FrozenInstanceError):
+        Scene().n_particles = 8
+
+
+def test_keys_and_values_come_back():
+    scene = Scene(n_particles=7, restitution=1.0, contact_time=(1e-5, 1e-3), aspect_ratio=2.0)
+    assert tuple(scene.as_dict()) == SCENE_KEYS
+    assert scene_from(scene.as_dict()) == scene
+    assert scene.contact_times == (1e-5, 1e-3)
+    assert Scene(contact_time=1e-4).contact_times == (1e-4,)
+    assert Scene(restitution=1, contact_time=[0, 1e-3]).contact_time == (0.0, 1e-3)
+
+
+def test_the_edges_are_allowed():
+    for values in ({"n_particles": 1}, {"area_fraction": CLOSE_PACKING}, {"restitution": 0}, {"restitution": 1}):
+        Scene(**values)
+    Scene(contact_time=0, n_particles=10_000_000)
+
+
+WRONG = [
+    ("n_particles", 0, "an integer from 1 to 10000000"),
+    ("n_particles", 10_000_001, "an integer from 1 to 10000000"),
+    ("n_particles", 100.0, "an integer"),
+    ("n_particles", True, "an integer"),
+    ("n_particles", "100", "an integer"),
+    ("area_fraction", 0.0, "a number > 0 and <= 0.9069 (close packing)"),
+    ("area_fraction", 0.91, "a number > 0 and <= 0.9069 (close packing)"),
+    ("area_fraction", math.nan, "a number > 0"),
+    ("area_fraction", "0.5", "a number > 0"),
+    ("area_fraction", None, "a number > 0"),
+    ("restitution", -0.1, "a number >= 0 and <= 1"),
+    ("restitution", 1.0000001, "a number >= 0 and <= 1"),
+    ("restitution", math.nan, "a number >= 0 and <= 1"),
+    ("restitution", False, "a number >= 0 and <= 1"),
+    ("contact_time", -1e-9, "a number >= 0 s"),
+    ("contact_time", math.inf, "a number >= 0 s"),
+    ("contact_time", "1e-5", "a number >= 0 s"),
+    ("contact_time", (1e-5, 1e-4), "restitution = 1 only"),
+    ("diameter", 0, "a number > 0 m"),
+    ("velocity_half_width", -0.5, "a number > 0 m/s"),
+    ("aspect_ratio", 0.0, "a number > 0"),
+    ("aspect_ratio", math.inf, "a number > 0"),
+    ("dynamics", "dsmc", "events"),
+    ("lattice", "hexagonal", "auto, triangular, square"),
+    ("dimensions", 3, "2"),
+    ("dimensions", "2", "2"),
+    ("boundary", "wall", "periodic"),
+]
+
+
+@pytest.mark.parametrize(("key", "value", "allowed"), WRONG, ids=[f"{key}={value!r}" for key, value, _ in WRONG])
+def test_a_wrong_value_is_named(key, value, allowed):
+    with pytest.raises(SceneError) as raised:
+        Scene(**{key: value})
+    assert str(raised.value).startswith(f"{key} = {value!r}: ")
+    assert allowed in str(raised.value)
+    assert (raised.value.key, raised.value.value) == (key, value)
+
+
+@pytest.mark.parametrize("times", [(), (1e-5, -1.0), (1e-5, math.nan)])
+def test_a_wrong_list_of_contact_times(times):
+    with pytest.raises(SceneError, match="contact_time"):
+        Scene(restitution=1.0, contact_time=times)
+
+
+def test_an_unknown_key_is_named():
+    with pytest.raises(SceneError, match="restitutoin = 0.4: unknown key; allowed are n_particles, area_fraction, restitution"):
+        scene_from({"n_particles": 5, "restitutoin": 0.4})
