@@ -1,4 +1,4 @@
-"""Start lattices hold their disks without an overlap or say what would fit; start velocities are what both papers start from."""
+"""Start lattices hold their disks without an overlap or say what would fit; start velocities have the papers' energy."""
 
 import math
 from dataclasses import replace
@@ -11,6 +11,7 @@ from granugas.initial import check_lattice, random_stream, rescaled, sites, star
 from granugas.scene import CLOSE_PACKING, Scene, SceneError
 
 RNG = np.random.default_rng
+OTHER_DISSIPATION = [{"restitution": 0.9}, {"contact_time": 0.0}, {"restitution": 1.0, "contact_time": (1e-3, 1e-5)}]
 
 
 def least_distance(position, box):
@@ -29,7 +30,9 @@ def check_start(scene):
     assert np.all((position >= 0) & (position < lattice.box))
     assert lattice.box[0] * lattice.box[1] >= scene.area * (1 - 1e-12)
     assert least_distance(position, lattice.box) >= scene.diameter
-    assert least_distance(position, lattice.box) == pytest.approx(lattice.spacing) or scene.n_particles < lattice.nx * lattice.ny
+    assert (
+        least_distance(position, lattice.box) == pytest.approx(lattice.spacing) or scene.n_particles < lattice.nx * lattice.ny
+    )
     return lattice
 
 
@@ -162,7 +165,7 @@ def drawn(scene=Scene(), seed=1, realization=0):  # noqa: B008
     return random_stream(scene, seed, realization).random(4).tolist()
 
 
-@pytest.mark.parametrize("other", [{"restitution": 0.9}, {"contact_time": 0.0}, {"restitution": 1.0, "contact_time": (1e-3, 1e-5)}])
+@pytest.mark.parametrize("other", OTHER_DISSIPATION)
 def test_the_random_stream_does_not_depend_on_the_dissipation(other):
     assert drawn(Scene(**other)) == drawn()
 

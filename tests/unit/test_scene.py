@@ -88,5 +88,5 @@ def test_a_wrong_list_of_contact_times(times):
 
 
 def test_an_unknown_key_is_named():
-    with pytest.raises(SceneError, match="restitutoin = 0.4: unknown key; allowed are n_particles, area_fraction, restitution"):
+    with pytest.raises(SceneError, match=r"restitutoin = 0\.4: unknown key; allowed are n_particles, area_fraction, "):
         scene_from({"n_particles": 5, "restitutoin": 0.4})

@@ -12,8 +12,8 @@ from granugas.dynamics.events.composition import inline
 from granugas.dynamics.events.flight import exit_time
 from granugas.dynamics.events.state import NOBODY
 
-NOISE = 2.5e-29
-"""(5e-15)^2: disks in touch that approach more slowly than 5e-15 of their speeds do so by rounding only."""
+NOISE = 1.0e-28
+"""(1e-14)^2: disks in touch that approach more slowly than 1e-14 of their speeds do so by rounding only."""
 
 LONGEST = 1.0e300
 """In place of an infinite delay, which would make a NaN of 0 times infinity."""
