@@ -88,6 +88,21 @@ def test_losses_of_many_samples_add_up(restitution):
     assert lost == pytest.approx(start - left, abs=1e-10 * start)
 
 
+@pytest.mark.parametrize("restitution", [1.0, 0.4, 0.0])
+@pytest.mark.parametrize("normal", [(1.0, 0.0), (0.0, 1.0), (0.6, 0.8), (0.8, -0.6)], ids=str)
+def test_the_momentum_of_one_collision_flows_along_its_normal(normal, restitution):
+    """The tally holds dp_a l_b of both partners (A Eq. 15): -(1+r)/2 u n_a n_b d for two disks head on with u."""
+    scene = Scene(2, 0.01, restitution, contact_time=0.0, diameter=0.5)
+    box, normal, u = (8.0, 8.0), np.array(normal), 2.0
+    position, velocity = 4.0 + np.outer([-1.0, 1.0], normal), np.outer([u / 2, -u / 2], normal) + np.array([0.3, 0.1])
+    engine = Engine(scene, at_rest(position, velocity, box))
+    engine.advance(np.inf, most_collisions=1)
+    tally = engine.take_tally()
+    assert engine.time == pytest.approx((2.0 - 0.5) / u)
+    np.testing.assert_allclose(tally.stress, -(1 + restitution) / 2 * u * 0.5 * np.outer(normal, normal), atol=1e-13)
+    assert tally.loss == pytest.approx((1 - restitution**2) / 4 * u**2, abs=1e-13)
+
+
 def test_looking_changes_nothing():
     """A run that is looked at ten thousand times ends as one that is not, bit for bit."""
     scene = Scene(1435, 0.25, restitution=0.8, contact_time=1e-5)

@@ -90,7 +90,7 @@ def test_answers_of_a_kernel_follow_its_rule():
 
 
 def test_a_plain_kernel_is_the_same_with_and_without_the_files_of_other_effects():
-    """Machine code of the elastic loop in two processes: one imports every effect, the other removes the TC rule first."""
+    """Machine code of the elastic loop in two processes: one imports the rule alone, the other every effect first."""
     code = """
 import sys, hashlib, re
 {first}

@@ -8,7 +8,7 @@ import pytest
 from gases import lattice_gas
 
 from granugas.dynamics.events import loop
-from granugas.dynamics.events.effects.collapse import UNRESOLVED, collapse_watch
+from granugas.dynamics.events.effects.collapse import UNRESOLVED
 from granugas.dynamics.events.effects.constant import Constant, Elastic
 from granugas.dynamics.events.effects.contact_time import ContactTime
 from granugas.dynamics.events.effects.elastic_share import ElasticShare
@@ -70,9 +70,8 @@ def beads(gap: float = 0.3) -> State:
     return at_rest(position, velocity, (10.0, 10.0))
 
 
-def bead_run(r: float, rule=None) -> tuple[int, Engine]:
-    scene = Scene(3, 0.02, restitution=r, contact_time=0.0, diameter=1.0)
-    engine = Engine(scene, beads(), rule=rule, watch=collapse_watch())
+def bead_run(r: float, t_c: float = 0.0) -> tuple[int, Engine]:
+    engine = Engine(Scene(3, 0.02, restitution=r, contact_time=t_c, diameter=1.0), beads())
     return engine.advance(3.0), engine
 
 
@@ -94,8 +93,20 @@ def test_three_beads_part_above_it(r):
     assert len(engine.involved()) == 0
 
 
+def test_a_resumed_watch_remembers():
+    scene = Scene(64, 0.5, restitution=0.0, contact_time=0.0)
+    straight = Engine(scene, lattice_gas(scene))
+    while len(straight.involved()) < 4:
+        straight.advance(math.inf, 1)
+    resumed = Engine.resume(scene, straight.box, straight.arrays)
+    assert resumed.involved().tolist() == straight.involved().tolist()
+    assert straight.advance(100.0) == resumed.advance(100.0) == loop.WATCH
+    assert resumed.collisions == straight.collisions
+    assert resumed.involved().tolist() == straight.involved().tolist()
+
+
 def test_a_contact_time_avoids_the_collapse():
-    why, engine = bead_run(0.03, ContactTime(0.03, 1e-6))
+    why, engine = bead_run(0.03, 1e-6)
     assert why == loop.TIME
     assert engine.collisions < 50
 

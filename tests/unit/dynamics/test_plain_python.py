@@ -61,6 +61,20 @@ def test_both_modes_agree_bit_for_bit(plain, name):
                 assert rows.tobytes() == other[table].tobytes(), table
 
 
+def test_other_tests_pass_in_plain_python_without_a_warning():
+    """Cells, flight, prediction and collisions, and a part of the comparison with brute force."""
+    tests = Path(__file__).parents[2]
+    files = [Path(__file__).parent / f"test_{name}.py" for name in ("cells", "collisions", "flight", "predict")]
+    brute = [f"test_many_disks[{nu}-0.4-1e-05-42]" for nu in (0.01, 0.25, 0.85)]
+    brute += [f"test_few_disks[0.25-{r}-{t_c}-{n}]" for n in (2, 3, 5) for r in (1.0, 0.4, 0.0) for t_c in (0.0, 0.001)]
+    chosen = [*map(str, files), *(f"{tests / 'validation' / 'test_brute_force.py'}::{name}" for name in brute)]
+    command = [sys.executable, "-m", "pytest", "-q", "-W", "error::RuntimeWarning", "-p", "no:cacheprovider", *chosen]
+    done = subprocess.run(
+        command, capture_output=True, text=True, env=os.environ | {"NUMBA_DISABLE_JIT": "1"}, cwd=tests.parent
+    )
+    assert done.returncode == 0, done.stdout
+
+
 def test_columns_check_their_indices_in_plain_python():
     code = (
         "import numpy as np; from granugas.dynamics.events.memory import Table;"

@@ -21,7 +21,7 @@ from granugas.scene import Scene
 CELL_WIDTH = 0.62
 """Wanted width of a cell in units of the mean distance of disks (measured)."""
 
-NARROWEST, WIDEST = 1.02, 3.0
+NARROWEST, WIDEST = 1.002, 3.0
 """Bounds of the wanted width (d): disks in cells that are not neighbours never touch."""
 
 MOST_CELLS = 32_000
