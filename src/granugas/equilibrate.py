@@ -88,9 +88,9 @@ def equilibrate(
 
 
 def judge(state: State, lattice: Lattice, melts: bool) -> Equilibrium:
-    """Compare a state with equilibrium; the finite-size value of the kurtosis is that of 2N - 2 free components."""
+    """Compare a state with equilibrium; the finite-size value of the kurtosis is that of N - 1 free components an axis."""
     n = len(state.position)
-    free = max(2 * n - 2, 1)
+    free = max(n - 1, 1)
     kurtosis = float(np.mean(velocity_kurtosis(state.velocity)) / (3 * free / (free + 2)))
     uneven = anisotropy(state.velocity)
     order = max(_order(state, lattice, hk) for hk in ((1, 0), (0, 1)))
