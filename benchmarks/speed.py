@@ -18,6 +18,7 @@ import numpy as np
 import pandas as pd
 from matplotlib import style
 from matplotlib.figure import Figure
+from numba import njit
 
 from granugas import plotting
 from granugas.analysis.clusters import find_clusters
@@ -50,6 +51,7 @@ def main(output: str = "results") -> None:
 
 def measurements() -> Iterator[dict[str, Any]]:
     """One row a figure: what, value, unit, bar (nan: none), and the fastest and slowest round."""
+    yield {"what": "this machine: a random read of 10 MB", "value": random_read(10e6), "unit": "ns", "bar": float("nan")}
     for n, nu, bar in ((5740, 0.25, 470), (79524, 0.25, 680), (1_000_000, 0.25, 1400), (5740, 0.70, 390)):
         scene = Scene(n_particles=n, area_fraction=nu, **ELASTIC)
         timing = time_collisions(scene, max(2_000_000, n))
@@ -73,6 +75,24 @@ def cost(what: str, timing: Timing, bar: float) -> dict[str, Any]:
     """A row in ns per collision."""
     spread = {"fastest": timing.fastest, "slowest": timing.slowest, "collisions": timing.collisions}
     return {"what": what, "value": timing.ns_per_collision, "unit": "ns", "bar": bar, **spread}
+
+
+def random_read(size: float) -> float:
+    """Nanoseconds of one read that waits for the one before: what a large system's cost depends on beside the code."""
+    lines = int(size / 64)
+    order = np.random.default_rng(1).permutation(lines)
+    table = np.zeros((lines, 8), np.int64)
+    table[order, 0] = np.roll(order, -1)
+    _follow(table, 10)
+    return median(seconds(partial(_follow, table, 10 * lines)) for _ in range(ROUNDS)) / (10 * lines) * 1e9
+
+
+@njit
+def _follow(table: np.ndarray, steps: int) -> int:
+    row = 0
+    for _ in range(steps):
+        row = table[row, 0]
+    return row
 
 
 def memory(n: int) -> float:

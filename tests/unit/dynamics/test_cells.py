@@ -98,12 +98,12 @@ def listed(gas, n):
 
 @njit
 def around(gas, i):
-    return listed(gas, list_around(gas, i))
+    return listed(gas, list_around(gas, gas.disks.cx[i], gas.disks.cy[i]))
 
 
 @njit
 def ahead(gas, i, step_x, step_y):
-    return listed(gas, list_ahead(gas, i, step_x, step_y))
+    return listed(gas, list_ahead(gas, gas.disks.cx[i], gas.disks.cy[i], step_x, step_y))
 
 
 def images(position, gas, i):

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numba import njit
 
-from granugas.dynamics.events.flight import exit_distances, exit_time, leaves_through_x, position
+from granugas.dynamics.events.flight import exit_distances, exit_time, leaves_through_x, next_step, position
 
 BOX = (6.0, 9.0)
 
@@ -17,6 +17,12 @@ def leave(gas, i, time):
     x, y = position(gas, i, time)
     to_x, to_y = exit_distances(gas, i, x, y)
     return x, y, to_x, to_y, leaves_through_x(gas, i, to_x, to_y), exit_time(gas, i, x, y, time)
+
+
+@njit
+def step_of(gas, i):
+    x, y = position(gas, i, 0.0)
+    return next_step(gas, i, x, y)
 
 
 def test_where_a_disk_is(gas_of):
@@ -41,6 +47,7 @@ def test_a_disk_leaves_through_the_nearest_edge(seed, gas_of):
     *_, through_x, when = leave(gas, 0, 0.0)
     assert when == pytest.approx(first, rel=1e-14)
     assert through_x == (times.index(first) < 2)
+    assert step_of(gas, 0) == ((-1, 0), (1, 0), (0, -1), (0, 1))[times.index(first)]
 
 
 @pytest.mark.parametrize(

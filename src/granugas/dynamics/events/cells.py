@@ -38,11 +38,10 @@ def leave_cell(gas, i):
 
 
 @inline
-def list_around(gas, i):
-    """Write the first disk of each of the nine cells around disk i into `near`, with the cell's offset; how many there are."""
+def list_around(gas, cx, cy):
+    """Write the first disk of each of the nine cells around (cx, cy) into `near`, with its cell's offset; how many there are."""
     near, head = gas.near, gas.cells.head
     nx, ny, width_x, width_y = gas.grid.nx, gas.grid.ny, gas.grid.width_x, gas.grid.width_y
-    cx, cy = gas.disks.cx[i], gas.disks.cy[i]
     n = 0
     for dy in range(-1, 2):
         row = wrapped(cy + dy, ny) * nx
@@ -54,11 +53,10 @@ def list_around(gas, i):
 
 
 @inline
-def list_ahead(gas, i, step_x, step_y):
-    """The same for the three cells ahead of a disk that has just taken a step, (+-1, 0) or (0, +-1), to its cell."""
+def list_ahead(gas, cx, cy, step_x, step_y):
+    """The same for the three cells ahead of a disk that takes a step, (+-1, 0) or (0, +-1), into the cell (cx, cy)."""
     near, head = gas.near, gas.cells.head
     nx, ny, width_x, width_y = gas.grid.nx, gas.grid.ny, gas.grid.width_x, gas.grid.width_y
-    cx, cy = gas.disks.cx[i], gas.disks.cy[i]
     n = 0
     for k in range(-1, 2):
         dx, dy = step_x + k * step_y * step_y, step_y + k * step_x * step_x

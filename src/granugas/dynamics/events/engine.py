@@ -27,10 +27,10 @@ NARROWEST, WIDEST = 1.002, 3.0
 MOST_CELLS = 32_000
 """In one direction: columns and rows are counted in two bytes."""
 
-LARGE = 20_000
+LARGE = 30_000
 """Above this number of disks the tables outgrow the cache, and looking ahead pays (measured)."""
 
-LOOK_AHEAD = 2
+LOOK_AHEAD = 1
 """Bins between two of its steps (measured)."""
 
 REBASE_AFTER = 100.0

@@ -29,6 +29,14 @@ def leaves_through_x(gas, i, to_x, to_y):
 
 
 @inline
+def next_step(gas, i, x, y):
+    """The step, (+-1, 0) or (0, +-1), to the cell that disk i at (x, y) enters next."""
+    to_x, to_y = exit_distances(gas, i, x, y)
+    through_x = leaves_through_x(gas, i, to_x, to_y)
+    return (1 if gas.disks.vx[i] > 0.0 else -1) * through_x, (1 if gas.disks.vy[i] > 0.0 else -1) * (not through_x)
+
+
+@inline
 def exit_time(gas, i, x, y, now):
     """When disk i, at (x, y) now, leaves its cell; infinite for a disk at rest."""
     to_x, to_y = exit_distances(gas, i, x, y)

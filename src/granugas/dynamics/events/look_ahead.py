@@ -5,8 +5,9 @@ the one before has brought: the disks of the bin; their partners and the lists o
 cells. Nothing is computed here, and nothing depends on it. It pays where the tables outgrow the cache (engine.py decides).
 """
 
-from granugas.dynamics.events.cells import list_around
+from granugas.dynamics.events.cells import list_ahead, list_around, wrapped
 from granugas.dynamics.events.composition import inline
+from granugas.dynamics.events.flight import next_step
 from granugas.dynamics.events.memory import prefetch
 from granugas.dynamics.events.state import NOBODY, SLOTS
 
@@ -33,23 +34,48 @@ def _fetch_disks(gas, b):
 @inline
 def _fetch_cells(gas, b):
     if b < gas.calendar.n_bins:
-        nx, last = gas.grid.nx, gas.grid.nx * gas.grid.ny - 1
+        disks = gas.disks
         for slot in range(b * SLOTS + 1, b * SLOTS + 1 + gas.bins.entry[b * SLOTS]):
             i = gas.bins.entry[slot]
-            cell = gas.disks.cy[i] * nx + gas.disks.cx[i]
-            prefetch(gas.cells.head, cell)
-            prefetch(gas.cells.head, max(cell - nx, 0))
-            prefetch(gas.cells.head, min(cell + nx, last))
-            j = gas.disks.partner[i]
-            if j != NOBODY:
-                prefetch(gas.disks.x, j)
+            j = disks.partner[i]
+            if gas.schedule.time[i] < disks.t_coll[i]:
+                step_x, step_y = next_step(gas, i, disks.x[i], disks.y[i])
+                _fetch_heads(gas, disks.cx[i] + step_x, disks.cy[i] + step_y)
+                _fetch_heads(gas, disks.cx[i] + 2 * step_x, disks.cy[i] + 2 * step_y)
+            elif j != NOBODY:
+                prefetch(disks.x, j)
                 prefetch(gas.clocks.last, j)
+                _fetch_heads(gas, disks.cx[i], disks.cy[i])
+
+
+@inline
+def _fetch_heads(gas, cx, cy):
+    """The lists of the cell and of those above and below; the ones beside them mostly come along."""
+    head, nx, last = gas.cells.head, gas.grid.nx, gas.grid.nx * gas.grid.ny - 1
+    cell = cy * nx + cx
+    prefetch(head, min(max(cell, 0), last))
+    prefetch(head, min(max(cell - nx, 0), last))
+    prefetch(head, min(max(cell + nx, 0), last))
 
 
 @inline
 def _fetch_neighbours(gas, b):
     if b < gas.calendar.n_bins:
+        disks, grid = gas.disks, gas.grid
         for slot in range(b * SLOTS + 1, b * SLOTS + 1 + gas.bins.entry[b * SLOTS]):
-            n = list_around(gas, gas.bins.entry[slot])
-            for k in range(n):
-                prefetch(gas.disks.x, gas.near.disk[k])
+            i = gas.bins.entry[slot]
+            cx, cy = disks.cx[i], disks.cy[i]
+            j = disks.partner[i]
+            if gas.schedule.time[i] < disks.t_coll[i]:
+                step_x, step_y = next_step(gas, i, disks.x[i], disks.y[i])
+                _fetch_near(gas, list_ahead(gas, wrapped(cx + step_x, grid.nx), wrapped(cy + step_y, grid.ny), step_x, step_y))
+            else:
+                _fetch_near(gas, list_around(gas, cx, cy))
+                if j != NOBODY:
+                    _fetch_near(gas, list_around(gas, disks.cx[j], disks.cy[j]))
+
+
+@inline
+def _fetch_near(gas, n):
+    for k in range(n):
+        prefetch(gas.disks.x, gas.near.disk[k])

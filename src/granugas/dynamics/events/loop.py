@@ -6,7 +6,7 @@ from granugas.dynamics.events.calendar import next_event, refresh_if_full
 from granugas.dynamics.events.cells import enter_cell, leave_cell, list_ahead, list_around, wrapped
 from granugas.dynamics.events.collisions import collide
 from granugas.dynamics.events.composition import generic, inline, kernel
-from granugas.dynamics.events.flight import exit_distances, leaves_through_x, position
+from granugas.dynamics.events.flight import next_step, position
 from granugas.dynamics.events.predict import look_around, plan
 from granugas.dynamics.events.state import NOBODY
 
@@ -46,7 +46,7 @@ def run(gas, most_collisions, most_events):
         _forget(gas, i)
         while i != NOBODY:
             x, y = position(gas, i, now)
-            look_around(gas, i, x, y, now, list_around(gas, i))
+            look_around(gas, i, x, y, now, list_around(gas, disks.cx[i], disks.cy[i]))
             plan(gas, i, x, y, now)
             i, j = j, NOBODY
         if called:
@@ -67,10 +67,7 @@ def _cross(gas, i, now):
     """Disk i enters the next cell, where only the three cells ahead are new to it."""
     disks, grid = gas.disks, gas.grid
     x, y = position(gas, i, now)
-    to_x, to_y = exit_distances(gas, i, x, y)
-    through_x = leaves_through_x(gas, i, to_x, to_y)
-    step_x = (1 if disks.vx[i] > 0.0 else -1) * through_x
-    step_y = (1 if disks.vy[i] > 0.0 else -1) * (not through_x)
+    step_x, step_y = next_step(gas, i, x, y)
     leave_cell(gas, i)
     disks.cx[i] = wrapped(disks.cx[i] + step_x, grid.nx)
     disks.cy[i] = wrapped(disks.cy[i] + step_y, grid.ny)
@@ -79,19 +76,19 @@ def _cross(gas, i, now):
     disks.y[i] -= shift_y
     enter_cell(gas, i)
     gas.tally.crossings += 1
-    look_around(gas, i, x - shift_x, y - shift_y, now, list_ahead(gas, i, step_x, step_y))
+    look_around(gas, i, x - shift_x, y - shift_y, now, list_ahead(gas, disks.cx[i], disks.cy[i], step_x, step_y))
     plan(gas, i, x - shift_x, y - shift_y, now)
 
 
 @kernel
 def start(gas):
     """Predict everything from positions, velocities and cells alone."""
-    n = gas.calendar.n_disks
+    disks, n = gas.disks, gas.calendar.n_disks
     now = gas.calendar.now
     for i in range(n):
         _forget(gas, i)
         enter_cell(gas, i)
     for i in range(n):
         x, y = position(gas, i, now)
-        look_around(gas, i, x, y, now, list_around(gas, i))
+        look_around(gas, i, x, y, now, list_around(gas, disks.cx[i], disks.cy[i]))
         plan(gas, i, x, y, now)
