@@ -39,7 +39,7 @@ def leave_cell(gas, i):
 
 @inline
 def list_around(gas, cx, cy):
-    """Write the first disk of each of the nine cells around (cx, cy) into `near`, with its cell's offset; how many there are."""
+    """Write the first disk of each of the nine cells around (cx, cy) into `near`, with the offsets; how many there are."""
     near, head = gas.near, gas.cells.head
     nx, ny, width_x, width_y = gas.grid.nx, gas.grid.ny, gas.grid.width_x, gas.grid.width_y
     n = 0
