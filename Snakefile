@@ -16,6 +16,7 @@ include: "workflow/rules/common.smk"
 rule all:
     input:
         [f"{OUTPUT}/figures/{name}.{kind}" for name in STUDIES.wanted for kind in ("png", "pdf")],
+        tables(),
 
 
 include: "workflow/rules/simulate.smk"
@@ -32,4 +33,4 @@ onsuccess:
 
 
 onerror:
-    print(failures(planned(workflow.dag), STARTED, finals=["figure", "pool", "check"]))
+    print(failures(planned(workflow.dag), STARTED, finals=["figure", "table", "claims", "pool", "check"]))

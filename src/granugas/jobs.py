@@ -15,6 +15,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import NamedTuple
 
+from granugas.scene import Scene
+
 PR_SET_PDEATHSIG = 1
 
 
@@ -77,15 +79,16 @@ def claim(output: str | Path) -> None:
             path.unlink()
 
 
-def warm_up(log: str | Path) -> None:
-    """Compile the kernels in a process of its own, so that jobs that start together find them compiled.
+def warm_up(log: str | Path, scenes: Iterable[Scene]) -> None:
+    """Compile the kernels of these scenes in a process of its own, so that jobs that start together find them compiled.
 
     No rule does this: compiled kernels belong to the machine, not to the results. Where it fails the jobs fail too, and
     say so in their logs.
     """
     Path(log).parent.mkdir(parents=True, exist_ok=True)
     with open(log, "w") as file:
-        command = [sys.executable, "-c", "import granugas; granugas.warm_up()"]
+        kinds = {(scene.restitution == 1, any(scene.contact_times)): scene for scene in scenes}  # same kernels, same kind
+        command = [sys.executable, "-c", f"from granugas import Scene, warm_up; warm_up({list(kinds.values())!r})"]
         subprocess.run(command, stdout=file, stderr=subprocess.STDOUT, check=False)
 
 

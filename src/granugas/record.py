@@ -34,6 +34,8 @@ ELASTIC = (
     "elastic_particle_fraction",
     "elastic_energy_fraction",
 )
+ELASTIC_ON_AVERAGE = "elastic_particle_time_fraction"
+"""Where the engine adds it up: for elastic disks with contact times."""
 
 
 class Record:
@@ -47,7 +49,8 @@ class Record:
         count, n = len(points.points) + 1, scene.n_particles
         self._time = np.full(count, np.nan)
         self._series = {name: np.full(count, np.nan) for name in SERIES}
-        self._elastic = {name: np.full((count, len(self._contact_times)), np.nan) for name in ELASTIC}
+        on_average = (ELASTIC_ON_AVERAGE,) if scene.restitution == 1 and self._contact_times.any() else ()
+        self._elastic = {name: np.full((count, len(self._contact_times)), np.nan) for name in (*ELASTIC, *on_average)}
         self._trajectory = np.full((count, n, 2), np.nan) if keep_positions else None
         self._particles = {
             "position": np.full((len(self.snapshots), n, 2), np.nan),
@@ -68,6 +71,7 @@ class Record:
         dt = state.time - self._time[k - 1]
         self._collisions += tally.collisions
         self._elastic_collisions = self._elastic_collisions + tally.elastic
+        so_far = self._so_far
         self._write(state)
         if dt > 0:
             energy = kinetic_energy(state.velocity).sum() + tally.loss - tally.loss_time / dt  # mean over the interval
@@ -77,6 +81,8 @@ class Record:
             for a, first in enumerate("xy"):
                 for b, second in enumerate("xy"):
                     self._series[f"collisional_stress_{first}{second}"][k] = stress[a, b]
+            if tally.elastic_time is not None:
+                self._elastic[ELASTIC_ON_AVERAGE][k] = (tally.elastic_time + self._so_far - so_far) / (n * dt)
         if tally.collisions > 0:
             self._elastic["elastic_collision_fraction"][k] = tally.elastic / tally.collisions
 
@@ -137,6 +143,8 @@ class Record:
         instant = (state.last_collision_time, state.time, self._contact_times)
         self._elastic["elastic_particle_fraction"][k] = elastic_particle_fraction(*instant)
         self._elastic["elastic_energy_fraction"][k] = elastic_energy_fraction(state.velocity, *instant)
+        since = state.time - state.last_collision_time
+        self._so_far = np.minimum(since, self._contact_times[:, np.newaxis]).sum(axis=1)  # elastic since the last collisions
         if self._trajectory is not None:
             self._trajectory[k] = state.position
         self._done += 1

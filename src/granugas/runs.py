@@ -23,11 +23,11 @@ SECONDS_PER_COLLISION = 1e-6
 
 @dataclass(frozen=True)
 class Run:
-    """One realization of one point of a grid.
+    """One job of a study: one realization of one point of its grid, or a fixed chunk of them.
 
     Attributes:
         scene: what is simulated; at r = 1 with all contact times of its grid.
-        seed, realization: of the random stream.
+        seed, realizations: of the random streams.
         until: limits, `time` in s and `collisions_per_particle`, either or both.
         samples: `spacing`, `count`, `first` and `axis` of the sampling times.
         snapshots: times in s, ascending.
@@ -37,7 +37,7 @@ class Run:
 
     scene: Scene
     seed: int
-    realization: int
+    realizations: tuple[int, ...]
     until: Mapping[str, float]
     samples: Mapping[str, Any]
     snapshots: tuple[float, ...]
@@ -49,7 +49,7 @@ class Run:
         """Name of the run's files: what people look for, then a digest of everything that decides the result."""
         times = self.scene.contact_times
         contact_time = f"{times[0]:g}" if len(times) == 1 else f"{len(times)}values"
-        name = f"{self._label}_r{self.scene.restitution:g}_tc{contact_time}_s{self.realization}"
+        name = f"{self._label}_r{self.scene.restitution:g}_tc{contact_time}_s{self._numbers}"
         content = {
             "scene": {key: value for key, value in self.scene.as_dict().items() if _counts(key, value)},
             "until": self.until,
@@ -65,15 +65,20 @@ class Run:
         """Name of the start state's file, which runs with other r, t_c or limits share."""
         scene = self.scene.as_dict()
         content = {key: scene[key] for key in START_KEYS if _counts(key, scene[key])}
-        return f"{self._label}_s{self.realization}_{digest_of(self._stream | {'scene': content})}"
+        return f"{self._label}_s{self._numbers}_{digest_of(self._stream | {'scene': content})}"
 
     @property
     def _label(self) -> str:
         return f"n{self.scene.n_particles}_nu{self.scene.area_fraction:g}"
 
     @property
+    def _numbers(self) -> str:
+        first, last = self.realizations[0], self.realizations[-1]
+        return f"{first}" if first == last else f"{first}-{last}"
+
+    @property
     def _stream(self) -> dict[str, Any]:
-        return {"seed": self.seed, "realization": self.realization, "equilibration": self.equilibration}
+        return {"seed": self.seed, "realizations": self.realizations, "equilibration": self.equilibration}
 
     @property
     def cost(self) -> float:
@@ -84,6 +89,7 @@ class Run:
         tau = rate * self.until.get("time", math.inf)
         collisions = tau if self.scene.restitution == 1 else min(tau, 20 * math.sqrt(tau))
         collisions = min(collisions, self.until.get("collisions_per_particle", math.inf))
+        collisions *= len(self.realizations)
         return START_SECONDS + SECONDS_PER_COLLISION * self.scene.n_particles * collisions / 2
 
 

@@ -28,7 +28,7 @@ class Study:
     Attributes:
         name: of the study and its dataset.
         grid_keys: the keys that the study's grid names, the dimensions of its dataset.
-        runs: each once, realizations of a point together.
+        runs: each once, the realizations of a point one after the other.
         distance_factors: S_c of its cluster analysis, ascending; empty for none.
     """
 
@@ -55,6 +55,7 @@ class Studies:
         figures: the figures that can be built and the studies that each needs, overviews included.
         wanted: names of those that the configuration asks for.
         left_out: figures that `all` cannot build, with the studies that are missing.
+        all_wanted: whether the configuration asks for all there is.
     """
 
     output: str
@@ -62,6 +63,11 @@ class Studies:
     figures: Mapping[str, tuple[str, ...]]
     wanted: tuple[str, ...]
     left_out: Mapping[str, tuple[str, ...]]
+    all_wanted: bool
+
+    def possible(self, products: Mapping[str, tuple[str, ...]]) -> dict[str, tuple[str, ...]]:
+        """Those products (tables, claims) whose studies are all configured."""
+        return {name: needs for name, needs in products.items() if self.studies.keys() >= set(needs)}
 
     def runs(self) -> dict[str, Run]:
         """Every run by its address; runs that studies share stand here once."""
@@ -106,17 +112,22 @@ def load(config: Mapping[str, Any], schema: Mapping[str, Any], figures: Mapping[
     else:
         wanted = _asked_for(whole["figures"], possible | overviews, left_out)
         left_out = {}
-    return Studies(str(PurePath(whole["output"])), studies, possible | overviews, wanted, left_out)
+    everything = whole["figures"] == "all"
+    return Studies(str(PurePath(whole["output"])), studies, possible | overviews, wanted, left_out, everything)
 
 
 def figures_in(folder: Path) -> dict[str, tuple[str, ...]]:
-    """The figure files of a folder and the studies that each needs: its line `STUDIES = (...)`, read, not run.
+    """The files of a folder of figures (or tables, or claims) and the studies that each needs: its line `STUDIES = (...)`.
 
     Raises:
         ConfigError: a file without that line.
     """
-    files = [path for path in sorted(folder.glob("*.py")) if path.stem != OVERVIEW and path.stem[0] != "_"]
-    return {path.stem: _studies_of_figure(path) for path in files}
+    return {path.stem: _names_in(path, "STUDIES") for path in _files_in(folder)}
+
+
+def experiments_in(folder: Path) -> dict[str, tuple[str, ...]]:
+    """The same files, and the experiments that each needs: its line `EXPERIMENTS = (...)`, if it has one."""
+    return {path.stem: _names_in(path, "EXPERIMENTS", ()) for path in _files_in(folder)}
 
 
 def _study(name: str, block: Mapping[str, Any], seed: int) -> Study:
@@ -130,6 +141,9 @@ def _study(name: str, block: Mapping[str, Any], seed: int) -> Study:
         allowed = f"allowed are times from 0 to {until['time']:g} s (until.time)"
         raise ConfigError(f"{where}.snapshots", snapshots[-1], allowed)
     factors = _ascending(f"{where}.distance_factors", block.get("distance_factors", ()))
+    if factors and block["realizations_per_job"] > 1:
+        allowed = f"allowed is 1 where clusters are analysed ({where}.distance_factors)"
+        raise ConfigError(f"{where}.realizations_per_job", block["realizations_per_job"], allowed)
     common = {
         "seed": seed,
         "until": until,
@@ -139,11 +153,16 @@ def _study(name: str, block: Mapping[str, Any], seed: int) -> Study:
         "keep_positions": bool(factors),
     }
     runs = [
-        Run(scene=scene, realization=realization, **common)
+        Run(scene=scene, realizations=chunk, **common)
         for scene in _scenes(where, block["grid"], block["scene"])
-        for realization in range(block["realizations"])
+        for chunk in _chunks(block["realizations"], block["realizations_per_job"])
     ]
     return Study(name, tuple(block["grid"]), tuple(runs), factors)
+
+
+def _chunks(realizations: int, size: int) -> Iterator[tuple[int, ...]]:
+    """The realizations of each job; chunks do not move when realizations are added."""
+    return (tuple(range(first, min(first + size, realizations))) for first in range(0, realizations, size))
 
 
 def _scenes(where: str, grid: Mapping[str, Any], settings: Mapping[str, Any]) -> Iterator[Scene]:
@@ -203,11 +222,18 @@ def _asked_for(names: Sequence[str], possible: Mapping[str, Any], left_out: Mapp
     return _distinct("figures", names)
 
 
-def _studies_of_figure(path: Path) -> tuple[str, ...]:
+def _files_in(folder: Path) -> list[Path]:
+    return [path for path in sorted(folder.glob("*.py")) if path.stem != OVERVIEW and path.stem[0] != "_"]
+
+
+def _names_in(path: Path, what: str, otherwise: tuple[str, ...] | None = None) -> tuple[str, ...]:
+    """A tuple that is written out in a file, which is read, not run."""
     for statement in ast.parse(path.read_text(encoding="utf-8"), str(path)).body:
-        if isinstance(statement, ast.Assign) and getattr(statement.targets[0], "id", "") == "STUDIES":
+        if isinstance(statement, ast.Assign) and getattr(statement.targets[0], "id", "") == what:
             return tuple(ast.literal_eval(statement.value))
-    raise ConfigError(f"{path.name}: STUDIES", MISSING, "allowed is a tuple of names of studies, written out")
+    if otherwise is None:
+        raise ConfigError(f"{path.name}: {what}", MISSING, "allowed is a tuple of names, written out")
+    return otherwise
 
 
 def _ascending(where: str, values: Iterable[float]) -> tuple[float, ...]:

@@ -22,8 +22,8 @@ def state(time, velocity=START, last=(NEVER,) * 4, collisions=(0,) * 4) -> State
     return State(time, BOX, position, np.array(velocity), np.array(last), interval, np.array(collisions))
 
 
-def tally(collisions=0, elastic=(0,), loss=0.0, loss_time=0.0, stress=((0.0, 0.0), (0.0, 0.0))) -> Tally:
-    return Tally(collisions, np.array(elastic), loss, loss_time, np.array(stress))
+def tally(collisions=0, elastic=(0,), loss=0.0, loss_time=0.0, stress=((0.0, 0.0), (0.0, 0.0)), elastic_time=None) -> Tally:
+    return Tally(collisions, np.array(elastic), elastic_time, loss, loss_time, np.array(stress))
 
 
 def record(scene=SCENE, points=(1.0, 2.0, 4.0), axis="time", snapshots=(), keep_positions=False) -> Record:
@@ -119,6 +119,22 @@ def test_a_list_of_contact_times():
     assert data["elastic_particle_fraction"].values[1].tolist() == [0.25, 0.5]
     assert data["elastic_collision_fraction"].values[1].tolist() == [0.25, 0.75]
     assert data["elastic_collisions_per_particle"].values[1].tolist() == [0.5, 1.5]
+
+
+def test_the_time_average_of_the_elastic_particles_counts_what_is_still_going_on():
+    scene = Scene(n_particles=4, area_fraction=0.1, restitution=1.0, contact_time=(0.5, 0.05))
+    run = record(scene)
+    run.sample(state(1.0, last=(0.75, 0.96, 0.4, NEVER)), tally(collisions=2, elastic=[0, 0], elastic_time=np.zeros(2)))
+    run.sample(
+        state(2.0, last=(0.75, 0.96, 1.6, NEVER)), tally(collisions=1, elastic=[0, 0], elastic_time=np.array([0.05, 0.5]))
+    )
+    # from t = 1 to 2: disk 0 until 1.25, disk 1 until 1.46 (or 1.01), disk 2 from 1.6 to 2 (or 1.65)
+    average = run.dataset()["elastic_particle_time_fraction"].values
+    assert average[2] == pytest.approx([(0.01 + 0.05) / 4, (0.25 + 0.46 + 0.4) / 4])
+
+
+def test_nobody_averages_the_elastic_particles_of_a_dissipative_gas():
+    assert "elastic_particle_time_fraction" not in record().dataset()
 
 
 def test_a_snapshot():

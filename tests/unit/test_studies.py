@@ -45,16 +45,27 @@ def states(**changes: object) -> set[str]:
 def test_a_study_is_the_product_of_its_lists_and_realizations() -> None:
     study = load_study()
     assert study.grid_keys == ("n_particles", "area_fraction", "restitution", "contact_time")
-    points = [(run.scene.n_particles, run.scene.restitution, run.realization) for run in study.runs]
+    points = [(run.scene.n_particles, run.scene.restitution, *run.realizations) for run in study.runs]
     assert points == [(n, r, k) for n in (42, 100) for r in (0.8, 0.4) for k in (0, 1)]
     assert len(addresses()) == 8
     assert len(states()) == 4
 
 
+def test_realizations_in_chunks_that_do_not_move_when_some_are_added() -> None:
+    def chunks(realizations: int) -> dict[tuple[int, ...], str]:
+        block = {"until": {"time": 1.0}, "realizations": realizations, "realizations_per_job": 3}
+        runs = load({"studies": {"scan": block}}, SCHEMA).studies["scan"].runs
+        return {run.realizations: run.address for run in runs}
+
+    assert list(chunks(7)) == [(0, 1, 2), (3, 4, 5), (6,)]
+    assert chunks(7).items() <= chunks(10).items() | {((6,), chunks(7)[6,])}
+    assert "_s3-5_" in chunks(7)[3, 4, 5]
+
+
 def test_a_study_names_only_what_it_varies() -> None:
     (run,) = load({"studies": {"bare": {"until": {"collisions_per_particle": 10}}}}, SCHEMA).studies["bare"].runs
     assert run.scene == Scene()
-    assert (run.seed, run.realization, run.equilibration, run.snapshots) == (1998, 0, 100.0, ())
+    assert (run.seed, run.realizations, run.equilibration, run.snapshots) == (1998, (0,), 100.0, ())
     assert run.samples == {"spacing": "log", "count": 100, "first": 1e-3, "axis": "collisions"}
 
 
@@ -216,7 +227,7 @@ def test_everything_that_a_run_is_made_of_is_in_its_address() -> None:
     other = {
         "scene": Scene(n_particles=3),
         "seed": 8,
-        "realization": 1,
+        "realizations": (1,),
         "until": {"time": 4.0},
         "samples": base.samples | {"count": 5},
         "snapshots": (1.0,),

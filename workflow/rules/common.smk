@@ -24,7 +24,9 @@ except ConfigError as error:
 
 OUTPUT = STUDIES.output
 STATES, RUNS, CLUSTERS = STUDIES.states(), STUDIES.runs(), STUDIES.clusters()
-DRAWINGS = studies.figures_in(HERE / "workflow/figures")
+DRAWINGS = studies.experiments_in(HERE / "workflow/figures")
+TABLES, CLAIMS = (STUDIES.possible(studies.figures_in(HERE / f"workflow/{kind}")) for kind in ("tables", "claims"))
+MEASURED = {kind: studies.experiments_in(HERE / f"workflow/{kind}") for kind in ("tables", "claims")}
 STYLE = [digest.SOURCES / "plotting.py", digest.SOURCES / "granugas.mplstyle"]
 PHYSICS = digest.digest(digest.EVENTS)
 ANALYSIS = digest.digest(digest.ANALYSIS)
@@ -34,6 +36,16 @@ STORAGE = digest.digest(["granugas.storage.*"])
 if STUDIES.left_out and workflow.is_main_process:
     for name, missing in STUDIES.left_out.items():
         print(f"Left out: {name} needs {', '.join(missing)}, not in the configuration.", file=sys.stderr)
+
+
+def datasets(names, experiments):
+    """The files of studies and experiments."""
+    return [f"{OUTPUT}/studies/{name}.nc" for name in names] + [f"{OUTPUT}/experiments/{name}.nc" for name in experiments]
+
+
+def tables():
+    """The tables that the configuration asks for: with all figures, all tables."""
+    return [f"{OUTPUT}/{name}.csv" for name in (*TABLES, *(["claims"] if CLAIMS else []))] if STUDIES.all_wanted else []
 
 
 def planned(dag):
@@ -51,6 +63,6 @@ def begin(jobs):
     except BlockingIOError:
         sys.exit(f"Another build is writing to {OUTPUT}: wait for its end, or choose another output.")
     if any(job.rule.startswith(("equilibrate", "simulate", "clusters")) for job in jobs):
-        warm_up(f"{OUTPUT}/logs/warm_up.log")
+        warm_up(f"{OUTPUT}/logs/warm_up.log", [run.scene for run in RUNS.values()])
     simulations = {job: RUNS[job.outputs[0].stem].cost for job in jobs if job.rule.startswith("simulate")}
     tell_progress(simulations, STARTED)

@@ -6,7 +6,7 @@ for name, needed in STUDIES.figures.items():
         name:
             f"figure_{name}"
         input:
-            studies=expand(f"{OUTPUT}/studies/{{study}}.nc", study=needed),
+            data=datasets(needed, DRAWINGS.get(drawing, ())),
             drawing=f"{HERE}/workflow/figures/{drawing}.py",
             style=STYLE,
         output:
@@ -15,7 +15,41 @@ for name, needed in STUDIES.figures.items():
         log:
             f"{OUTPUT}/logs/figures/{name}.log",
         params:
-            names=needed,
             formulas=FORMULAS,
         script:
             "../scripts/draw.py"
+
+
+# Tables, each from a file of workflow/tables.
+for name, needed in TABLES.items():
+
+    rule:
+        name:
+            f"table_{name}"
+        input:
+            data=datasets(needed, MEASURED["tables"][name]),
+            table=f"{HERE}/workflow/tables/{name}.py",
+        output:
+            f"{OUTPUT}/{name}.csv",
+        log:
+            f"{OUTPUT}/logs/tables/{name}.log",
+        params:
+            formulas=FORMULAS,
+        script:
+            "../scripts/table.py"
+
+
+# What the papers claim, judged: all files of workflow/claims in one table, and a page to read.
+rule claims:
+    input:
+        data=sorted({path for name, needed in CLAIMS.items() for path in datasets(needed, MEASURED["claims"][name])}),
+        claims=[f"{HERE}/workflow/claims/{name}.py" for name in CLAIMS],
+    output:
+        table=f"{OUTPUT}/claims.csv",
+        page=report(f"{OUTPUT}/claims.md", category="Claims"),
+    log:
+        f"{OUTPUT}/logs/claims.log",
+    params:
+        formulas=FORMULAS,
+    script:
+        "../scripts/claims.py"

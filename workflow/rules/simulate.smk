@@ -37,3 +37,15 @@ use rule simulate as simulate_without_positions with:
         run=f"{OUTPUT}/runs/{{run}}.nc",
     wildcard_constraints:
         run=".+(?<!_xy)",
+
+
+# Measurements that are no study of a gas: one ball on a plate, two soft disks, ...
+rule experiment:
+    output:
+        f"{OUTPUT}/experiments/{{experiment}}.nc",
+    log:
+        f"{OUTPUT}/logs/experiments/{{experiment}}.log",
+    params:
+        physics=lambda wildcards: digest.digest([f"granugas.experiments.{wildcards.experiment}", *digest.KERNELS]),
+    script:
+        "../scripts/experiment.py"

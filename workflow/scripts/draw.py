@@ -1,4 +1,4 @@
-"""Draw one figure: its file has a function draw(data) that takes the datasets by the names of their studies."""
+"""Draw one figure: its file has a function draw(data) that takes the datasets by the names of studies and experiments."""
 
 from granugas.jobs import logged
 
@@ -6,8 +6,7 @@ with logged(snakemake.log[0]):
     import runpy
 
     from granugas.plotting import save
-    from granugas.storage.dataset import read
+    from granugas.storage.dataset import read_by_name
 
-    data = dict(zip(snakemake.params.names, map(read, snakemake.input.studies), strict=True))
-    figure = runpy.run_path(snakemake.input.drawing)["draw"](data)
+    figure = runpy.run_path(snakemake.input.drawing)["draw"](read_by_name(snakemake.input.data))
     save(figure, snakemake.output.png, snakemake.output.pdf)

@@ -5,7 +5,7 @@ The rest of what storage offers can be had from here too: the table of variables
 
 import hashlib
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -26,6 +26,7 @@ __all__ = [
     "load_study",
     "pool",
     "read",
+    "read_by_name",
     "read_positions",
     "write",
     "write_positions",
@@ -86,6 +87,11 @@ def read(path: str | Path) -> xr.Dataset:
         FileNotFoundError: no such file.
     """
     return xr.load_dataset(path, engine="netcdf4", decode_times=False)
+
+
+def read_by_name(paths: Iterable[str | Path]) -> dict[str, xr.Dataset]:
+    """The datasets of files by the files' names: the names of studies and experiments."""
+    return {Path(path).stem: read(path) for path in paths}
 
 
 def load_study(path: str | Path) -> xr.Dataset:

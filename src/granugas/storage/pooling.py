@@ -61,6 +61,15 @@ def pool(parts: Iterable[xr.Dataset], keys: Sequence[str]) -> xr.Dataset:
     return describe(xr.Dataset(pooled, {**coordinates.coords, **axes}, attributes))
 
 
+def realization_of(pooled: xr.Dataset, realization: int) -> xr.Dataset:
+    """One of the parts that were pooled over `realization` alone; the dataset itself where it holds nothing else."""
+    if "realization" not in pooled.dims:
+        return pooled
+    part = pooled.sel(realization=realization, drop=True)
+    scalars = [name for name, variable in part.data_vars.items() if variable.ndim == 0]
+    return part.drop_vars(scalars).assign_attrs({name: part[name].item() for name in scalars})
+
+
 def _place(part: xr.Dataset, grid: Sequence[str]) -> Place:
     place = {}
     for key in grid:
@@ -87,9 +96,10 @@ def _refuse_duplicates(cells: list[list[Cell]], axes: dict[str, list[Any]]) -> N
 
 def _tell_collapses(placed: list[tuple[Place, xr.Dataset]]) -> None:
     for place, part in placed:
-        if "stop_reason" in part and part["stop_reason"].item() == "inelastic_collapse":
+        if "stop_reason" in part:
             where = ", ".join(f"{key} = {plain(values)}" for key, values in place.items())
-            logger.warning("%s: inelastic collapse at t = %g s, NaN after it", where, part["stop_time"].item())
+            for time in np.ravel(part["stop_time"])[np.ravel(part["stop_reason"]) == "inelastic_collapse"]:
+                logger.warning("%s: inelastic collapse at t = %g s, NaN after it", where, time)
 
 
 def _split_attributes(parts: list[xr.Dataset], grid: Sequence[str]) -> tuple[list[xr.Dataset], dict[str, Any]]:

@@ -93,6 +93,9 @@ VARIABLES = {
     "elastic_particle_fraction": Variable(
         "1", "fraction of particles whose last collision was no longer than t_c ago", "n_e = N_e/N", "A Eq. 20"
     ),
+    "elastic_particle_time_fraction": Variable(
+        "1", f"fraction of elastic particles, exact time average {_INTERVAL}", "<N_e>/N", "A section 5.4"
+    ),
     "elastic_energy_fraction": Variable(
         "1", "fraction of the kinetic energy that elastic particles carry", "e_e = E_e/E", "A section 5.4"
     ),

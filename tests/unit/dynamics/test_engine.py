@@ -101,7 +101,7 @@ def test_tallies_add_up():
     ("scene", "rule", "watch"),
     [
         (Scene(restitution=1.0, contact_time=0.0), "Elastic", "Nobody"),
-        (Scene(restitution=1.0, contact_time=1e-5), "ElasticShare", "Nobody"),
+        (Scene(restitution=1.0, contact_time=1e-5), "ElasticShare", "ElasticTime"),
         (Scene(restitution=0.4, contact_time=1e-5), "ContactTime", "Nobody"),
         (Scene(restitution=0.4, contact_time=0.0), "Constant", "CollapseWatch"),
     ],

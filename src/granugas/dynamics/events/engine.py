@@ -13,6 +13,7 @@ from granugas.dynamics.events.effects.collapse import CollapseWatch, collapse_wa
 from granugas.dynamics.events.effects.constant import Constant, Elastic
 from granugas.dynamics.events.effects.contact_time import ContactTime
 from granugas.dynamics.events.effects.elastic_share import SHARES, ElasticShare
+from granugas.dynamics.events.effects.elastic_time import TIMES, ElasticTime
 from granugas.dynamics.events.effects.nobody import Nobody
 from granugas.dynamics.events.memory import Record, Table, allocate
 from granugas.dynamics.state import State
@@ -44,6 +45,8 @@ class Tally:
     Attributes:
         collisions: number of collisions (each has two partners).
         elastic: those that the TC rule made elastic; one number for each t_c of the scene.
+        elastic_time: time that particles were elastic between two collisions, the second one in the interval (s), for each
+            t_c of a scene with r = 1; None where nobody adds it up.
         loss: dissipated energy per mass (m^2/s^2).
         loss_time: sum of the losses times the time that was left of the interval (m^2/s).
         stress: (2, 2), sum of dp_a l_b over both partners per mass (m^2/s; A Eq. 15).
@@ -51,6 +54,7 @@ class Tally:
 
     collisions: int
     elastic: np.ndarray
+    elastic_time: np.ndarray | None
     loss: float
     loss_time: float
     stress: np.ndarray
@@ -141,9 +145,11 @@ class Engine:
         """The sums over all collisions since the tally was last taken."""
         t, d2 = self._gas.tally, self.scene.diameter**2
         shares = self.rule.shares.rows["elastic"] if isinstance(self.rule, ElasticShare) else None
+        held = self.watch.times.rows["held"] if isinstance(self.watch, ElasticTime) else None
         taken = Tally(
             collisions=int(t.collisions),
             elastic=np.array([t.elastic]) if shares is None else shares.copy(),
+            elastic_time=None if held is None else held.copy(),
             loss=float(t.loss) * d2,
             loss_time=float(t.loss * self._gas.calendar.reached - t.loss_time) * d2,
             stress=np.array([[t.xx, t.xy], [t.yx, t.yy]]) * d2,
@@ -151,8 +157,9 @@ class Engine:
         done = self.collisions
         self.arrays["tally"][:] = 0
         self.arrays["tally"]["taken"] = done
-        if shares is not None:
-            shares[:] = 0
+        for sums in (shares, held):
+            if sums is not None:
+                sums[:] = 0
         return taken
 
     def involved(self) -> np.ndarray:
@@ -176,8 +183,14 @@ def rule_of(scene: Scene) -> Any:
 
 
 def watch_of(scene: Scene) -> Any:
-    """Only disks that dissipate without a contact duration can collapse."""
-    return collapse_watch() if scene.restitution < 1 and not any(scene.contact_times) else Nobody()
+    """Only disks that dissipate without a contact duration can collapse; elastic ones with one have times to add up."""
+    if not any(scene.contact_times):
+        return collapse_watch() if scene.restitution < 1 else Nobody()
+    if scene.restitution < 1:
+        return Nobody()
+    times = np.zeros(len(scene.contact_times), TIMES)
+    times["t_c"] = sorted(scene.contact_times)
+    return ElasticTime(Table(times), len(times))
 
 
 def _rows_of(role: str, effect: Any) -> dict[str, np.ndarray]:

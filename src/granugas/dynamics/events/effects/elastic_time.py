@@ -1,0 +1,32 @@
+"""A watch that adds up, for a whole list of t_c, how long the particles are elastic: collided no longer than t_c ago.
+
+A particle that collides again after a time s was elastic for min(s, t_c) of it (A section 5.4), so the time average of n_e
+is exact, where snapshots only sample it.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from granugas.dynamics.events.composition import implements
+from granugas.dynamics.events.loop import witness
+from granugas.dynamics.events.memory import Table
+
+TIMES = np.dtype([("t_c", "f8"), ("held", "f8")])
+"""t_c (s), and the time that particles were elastic between two collisions (s)."""
+
+
+class ElasticTime(NamedTuple):
+    """A table of TIMES with `size` rows."""
+
+    times: Table
+    size: int
+
+
+@implements(witness, ElasticTime)
+def _elastic_time(watch, gas, i, j, now, since, u_n):
+    between_i, between_j = gas.clocks.interval[i], gas.clocks.interval[j]
+    for k in range(watch.size):
+        t_c = watch.times.t_c[k]
+        watch.times.held[k] += min(between_i, t_c) + min(between_j, t_c)
+    return False
