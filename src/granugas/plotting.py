@@ -14,9 +14,13 @@ import numpy as np
 import xarray as xr
 from matplotlib import style
 from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.collections import EllipseCollection
+from matplotlib.colors import LinearSegmentedColormap, Normalize
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator, NullFormatter
+from numpy.typing import NDArray
 
 from granugas.analysis.statistics import PowerLaw
 
@@ -177,3 +181,71 @@ def _number(value: Any) -> str:
     if isinstance(value, str):
         return value
     return power_of_ten(value) if 0 < value < 0.02 else f"${value:.10g}$"
+
+
+def thinned(runs: xr.Dataset, count: int = 300) -> xr.Dataset:
+    """Runs with no more samples than a logarithmic axis of time shows: t = 0, and those next to `count` equal steps."""
+    at = times(runs).values
+    wanted = np.geomspace(at[at > 0].min(), np.nanmax(at), count)
+    return runs.isel(time=np.unique([0, *(np.abs(at - t).argmin() for t in wanted)]))
+
+
+def mean_and_range(axes: Axes, x: xr.DataArray, y: xr.DataArray, **line: Any) -> Line2D:
+    """The arithmetic mean over realizations as points on a line, and their range as a band.
+
+    For counts, of which some realizations may have none: where all have none, a logarithmic axis shows nothing. The limits
+    of the axes must be set.
+
+    Args:
+        axes: with their scales set.
+        x: over `realization` and `time`, or over `time`.
+        y: over `realization` and `time`.
+        line: how the line is drawn.
+    """
+    x = x.mean("realization") if "realization" in x.dims else x
+    low, mean, high = y.min("realization"), y.mean("realization"), y.max("realization")
+    shown = mean > 0 if axes.get_yscale() == "log" else ~np.isnan(mean)
+    (drawn,) = axes.plot(x, mean.where(shown), **line)
+    if y.sizes["realization"] > 1:
+        axes.fill_between(x, low, high, where=shown, color=drawn.get_color(), alpha=0.15, linewidth=0)
+    return drawn
+
+
+def blue_green_red(low: float, middle: float, high: float) -> ScalarMappable:
+    """The colours of A Figs. 10 and 11: blue below `low`, green about `middle`, red above `high`."""
+    place = (middle - low) / (high - low)
+    colours = LinearSegmentedColormap.from_list("blue_green_red", [(0, "#2166d1"), (place, "#27a544"), (1, "#d7191c")])
+    return ScalarMappable(Normalize(low, high), colours)
+
+
+def draw_disks(
+    axes: Axes, position: NDArray[np.float64], box: Sequence[float], diameter: float, colour: NDArray[np.float64]
+) -> None:
+    """Disks to scale in their periodic box, in units of their diameter, as a picture of dots in every format.
+
+    Args:
+        axes: without ticks afterwards.
+        position: (n, 2) in m.
+        box: sides in m.
+        diameter: in m.
+        colour: (n, 4).
+    """
+    sides = np.asarray(box) / diameter
+    images = [(position / diameter + np.array(shift) * sides, colour) for shift in product((-1, 0, 1), repeat=2)]
+    place, colour = (np.concatenate(parts) for parts in zip(*images, strict=True))
+    seen = ((place > -0.5) & (place < sides + 0.5)).all(axis=1)
+    diameters = np.ones(seen.sum())
+    axes.add_collection(
+        EllipseCollection(
+            diameters,
+            diameters,
+            np.zeros_like(diameters),
+            units="xy",
+            offsets=place[seen],
+            offset_transform=axes.transData,
+            facecolors=colour[seen],
+            linewidths=0,
+            rasterized=True,
+        )
+    )
+    axes.set(xlim=(0, sides[0]), ylim=(0, sides[1]), aspect="equal", xticks=[], yticks=[])
