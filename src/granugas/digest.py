@@ -30,7 +30,7 @@ EVENTS = (
     "granugas.progress",
     "granugas.simulate",
     "granugas.analysis.observables",
-    "granugas.analysis.theory",
+    "granugas.analysis.enskog",
     "granugas.dynamics.state",
     "granugas.dynamics.events.*",
 )

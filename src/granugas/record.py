@@ -5,8 +5,8 @@ from collections.abc import Sequence
 import numpy as np
 import xarray as xr
 
+from granugas.analysis.enskog import enskog_rate
 from granugas.analysis.observables import elastic_energy_fraction, elastic_particle_fraction, kinetic_energy
-from granugas.analysis.theory import enskog_rate
 from granugas.dynamics.events.engine import Tally
 from granugas.dynamics.state import State
 from granugas.sampling import Samples

@@ -12,6 +12,7 @@ from workflow.project import Project
 from granugas.storage.dataset import read
 
 CONFIG = {
+    "figures": ["study_doomed", "study_sound"],
     "studies": {
         name: {
             "grid": {"n_particles": 42, "area_fraction": 0.2, "restitution": restitution},

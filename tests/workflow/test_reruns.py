@@ -19,7 +19,7 @@ STUDY = {
 @pytest.fixture(scope="module")
 def built(editable_project: Project) -> Project:
     """A project whose configuration is built, figure and all."""
-    editable_project.configure(studies={"small": STUDY})
+    editable_project.configure(studies={"small": STUDY}, figures=["study_small"])
     said = editable_project.build("--", "all", "check")
     assert "the figures in results/figures" in said
     return editable_project

@@ -7,6 +7,15 @@ M total mass, d = 2a diameter, r restitution, t_c contact duration, tau = t / t_
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from granugas.analysis.enskog import (  # noqa: F401 - here is where formulas are looked up
+    contact_value,
+    contact_value_dense,
+    enskog_rate,
+    prefactor_rate,
+    reduced_pressure,
+    rms_speed,
+)
+
 Numbers = NDArray[np.float64]
 
 ENERGY_OF_ELASTIC_PARTICLES = 5 / 4
@@ -16,42 +25,9 @@ VIRIAL_COEFFICIENTS = (1.0, 1.0, 0.782004, 0.532232, 0.333556)
 """B_k / B_2^(k-1) of hard disks for k = 1 ... 5, where B_2 times the number density is 2 nu."""
 
 
-def contact_value(area_fraction: ArrayLike) -> Numbers:
-    """g(2a) = (1 - 7 nu/16) / (1 - nu)^2 (A Eq. 17)."""
-    nu = np.asarray(area_fraction, dtype=float)
-    return (1 - 7 * nu / 16) / (1 - nu) ** 2
-
-
-def contact_value_dense(area_fraction: ArrayLike) -> Numbers:
-    """g_4 = g - nu^3 / [128 (1 - nu)^4] (Luding 2001), right within .2 % up to nu = .65."""
-    nu = np.asarray(area_fraction, dtype=float)
-    return contact_value(nu) - nu**3 / (128 * (1 - nu) ** 4)
-
-
-def reduced_pressure(area_fraction: ArrayLike, g: ArrayLike | None = None) -> Numbers:
-    """P_0 = P V / E = 1 + 2 nu g(2a) (A Eq. 16), with A Eq. 17 for g unless another is given."""
-    nu = np.asarray(area_fraction, dtype=float)
-    return 1 + 2 * nu * (contact_value(nu) if g is None else np.asarray(g))
-
-
 def virial_pressure(area_fraction: ArrayLike) -> Numbers:
     """P V / E = sum over k of B_k / B_2^(k-1) (2 nu)^(k-1) up to the fifth virial coefficient: for dilute gases."""
     return np.polynomial.polynomial.polyval(2 * np.asarray(area_fraction, dtype=float), VIRIAL_COEFFICIENTS)
-
-
-def rms_speed(energy_per_mass: ArrayLike) -> Numbers:
-    """v_bar = sqrt(2 E/M) in m/s (A Eq. 19) from E/M in (m/s)^2; E/M = w^2/3 for components uniform in +-w."""
-    return np.sqrt(2 * np.asarray(energy_per_mass, dtype=float))
-
-
-def prefactor_rate(energy_per_mass: ArrayLike, diameter: float) -> Numbers:
-    """w_0 = sqrt(2/pi) v_bar / a in 1/s (A Eq. 19)."""
-    return np.sqrt(2 / np.pi) * rms_speed(energy_per_mass) / (diameter / 2)
-
-
-def enskog_rate(area_fraction: ArrayLike, energy_per_mass: ArrayLike, diameter: float) -> Numbers:
-    """1/t_E = 2 d (N/V) sqrt(pi E/M) g(2a) = w_0 (P_0 - 1) in 1/s (A Eq. 19, B Eq. 2)."""
-    return prefactor_rate(energy_per_mass, diameter) * (reduced_pressure(area_fraction) - 1)
 
 
 def elastic_particle_fraction(contact_time: ArrayLike, rate: ArrayLike) -> Numbers:
