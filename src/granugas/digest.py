@@ -32,9 +32,16 @@ EVENTS = (
     "granugas.analysis.observables",
     "granugas.analysis.enskog",
     "granugas.dynamics.state",
-    "granugas.dynamics.events.*",
+    *(
+        f"granugas.dynamics.events.{name}"
+        for name in (
+            *("memory", "composition", "state", "cells", "flight", "calendar", "look_ahead", "predict", "collisions"),
+            *("loop", "engine", "effects.nobody", "effects.constant", "effects.contact_time", "effects.elastic_share"),
+            *("effects.elastic_time", "effects.collapse"),
+        )
+    ),
 )
-"""Modules that decide the numbers of an event-driven run, its start state included."""
+"""Modules that decide the numbers of an event-driven run, its start state included; no watch that only instruments use."""
 
 ANALYSIS = ("granugas.analysis.burning", "granugas.analysis.clusters")
 """Modules that decide the numbers of a cluster analysis."""

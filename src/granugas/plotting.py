@@ -22,7 +22,8 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator, NullFormatter
 from numpy.typing import NDArray
 
-from granugas.analysis.statistics import PowerLaw
+from granugas.analysis.statistics import PowerLaw, mean_and_error
+from granugas.analysis.windows import equal_windows, middles, ratio_of_changes, snapshot_means
 
 STYLE = Path(__file__).with_name("granugas.mplstyle")
 COLUMN, PAGE = 3.4, 7.0
@@ -245,7 +246,85 @@ def draw_disks(
             offset_transform=axes.transData,
             facecolors=colour[seen],
             linewidths=0,
+            antialiaseds=False,
             rasterized=True,
         )
     )
     axes.set(xlim=(0, sides[0]), ylim=(0, sides[1]), aspect="equal", xticks=[], yticks=[])
+
+
+def elastic_fractions(
+    runs: Sequence[xr.Dataset], lines: Sequence[dict[str, Any]], width: float, limits: Sequence[tuple[float, float]]
+) -> Figure:
+    """(a) c_e of all collisions in windows of time, (b) n_e and (c) e_e of 20 snapshots in each (A Figs. 14 and 16).
+
+    Args:
+        runs: over `realization` and `time`, one dataset a curve.
+        lines: how each of them is drawn.
+        width: of the windows in s.
+        limits: of c_e, and of n_e and e_e.
+    """
+    figure = Figure(figsize=(PAGE, 2.8))
+    panels = figure.subplots(1, 3)
+    labels = ("$c_e = C_e/C$", "$n_e = N_e/N$", "$e_e = E_e/E$")
+    for axes, label, shown in zip(panels, labels, (limits[0], limits[1], limits[1]), strict=True):
+        axes.set(yscale="log", xlabel=r"$\tau$", ylabel=label, ylim=shown)
+    for data, line in zip(runs, lines, strict=True):
+        edges = equal_windows(times(data), width)
+        tau = middles(data["tau"], edges)
+        sums = data["elastic_collisions_per_particle"], data["collisions_per_particle"]
+        mean_and_range(panels[0], tau, ratio_of_changes(*sums, edges), **line)
+        for axes, name in zip(panels[1:], ("elastic_particle_fraction", "elastic_energy_fraction"), strict=True):
+            mean_and_range(axes, tau, snapshot_means(data[name], edges, 20), **line)
+    mark_panels(*panels)
+    return figure
+
+
+MARKERS = "osD^v<>ph*"
+"""In this order where colours alone tell points apart."""
+
+
+def error_points(axes: Axes, values: xr.DataArray, **style: Any) -> None:
+    """Means over realizations against the other dimension, with bars of the standard error where there are several.
+
+    Args:
+        axes: with their scales set.
+        values: over `realization` and one more dimension; NaN is left out.
+        style: of the points.
+    """
+    (dim,) = set(values.dims) - {"realization"}
+    mean, error = mean_and_error(values.transpose("realization", dim).values)
+    shown = ~np.isnan(mean)
+    style = {"linestyle": "none", "markersize": 3.5, "markeredgewidth": 0.7, "elinewidth": 0.7, "capsize": 1.5} | style
+    axes.errorbar(values[dim].values[shown], mean[shown], np.nan_to_num(error[shown]), **style)
+
+
+def by_contact_time(axes: Axes, values: xr.DataArray, **style: Any) -> None:
+    """`error_points` for each contact time, the longest first, with a colour and a marker of its own and a label.
+
+    Args:
+        axes: with their scales set.
+        values: over `contact_time`, `realization` and one more dimension.
+        style: of all points.
+    """
+    times = sorted(values["contact_time"].values, reverse=True)
+    for t_c, colour, marker in zip(times, shades(len(times)), MARKERS, strict=False):
+        look = {"color": colour, "marker": marker, "markerfacecolor": "none", "label": power_of_ten(t_c)}
+        error_points(axes, values.sel(contact_time=t_c), **look | style)
+
+
+def each_run(axes: Axes, values: xr.DataArray, branch: xr.DataArray, label: str, **style: Any) -> None:
+    """Every realization as a point against the area fraction: an open symbol for the fluid, a filled one for the crystal.
+
+    Args:
+        axes: with their scales set.
+        values: over `area_fraction` and `realization`.
+        branch: like the values, "fluid" or "crystal".
+        label: of the open symbols.
+        style: of both.
+    """
+    nu, values, branch = xr.broadcast(values["area_fraction"], values, branch)
+    style = {"linestyle": "none", "markeredgewidth": 0.7} | style
+    for name, look in (("fluid", {"markerfacecolor": "none", "label": label}), ("crystal", {})):
+        there = (branch == name).values
+        axes.plot(nu.values[there], values.values[there], **style | look)

@@ -5,7 +5,7 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from granugas.analysis.theory import homogeneous_cooling
-from granugas.plotting import THEORY, band, grid_points, number_1_2_5, power_of_ten, shades, styled
+from granugas.plotting import THEORY, band, grid_points, number_1_2_5, power_of_ten, shades, styled, thinned
 
 STUDIES = ("tc1998_contact_times",)
 
@@ -18,6 +18,7 @@ def draw(data: dict[str, xr.Dataset]) -> Figure:
     inset = axes.inset_axes([0.14, 0.1, 0.42, 0.42], xscale="log", yscale="log")
     points = sorted(grid_points(data[STUDIES[0]]), key=lambda point: -point[0]["contact_time"])
     for (key, runs), colour in zip(points, reversed(shades(len(points))), strict=True):
+        runs = thinned(runs)
         band(axes, runs["tau"], runs["kinetic_energy"], color=colour, label=power_of_ten(key["contact_time"]))
         band(inset, runs["tau"], runs["kinetic_energy"], color=colour, spread=False)
     tau = np.geomspace(*axes.get_xlim(), 200)

@@ -114,3 +114,23 @@ def fit_power_law(x: ArrayLike, y: ArrayLike, window: tuple[float, float]) -> Po
     exponents, offsets = np.polyfit(np.log(x[inside]), np.log(y).T, 1)
     interval = t_interval(exponents) if len(exponents) <= len(STUDENT_T) + 1 else bootstrap_interval(exponents)
     return PowerLaw(float(exponents.mean()), interval, float(np.exp(offsets.mean())), tuple(window), exponents)
+
+
+def jackknife(statistic: Callable[..., ArrayLike], *groups: ArrayLike) -> tuple[Numbers, Numbers]:
+    """A statistic of groups of realizations, and its standard error by leaving out one realization after the other.
+
+    Args:
+        statistic: of arrays like the groups, realizations first.
+        groups: (n_i, ...) each; groups are independent of each other, what was run from the same start states belongs
+            in one group.
+
+    Returns:
+        value and error of one shape; the error is NaN where a group has one realization.
+    """
+    groups = [np.asarray(group, dtype=float) for group in groups]
+    variance = 0.0
+    for k, group in enumerate(groups):
+        n = len(group)
+        left = [statistic(*groups[:k], np.delete(group, i, axis=0), *groups[k + 1 :]) for i in range(n)] if n > 1 else [np.nan]
+        variance = variance + (n - 1) * np.var(left, axis=0)
+    return np.asarray(statistic(*groups), dtype=float), np.sqrt(variance)
