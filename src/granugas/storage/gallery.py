@@ -27,7 +27,7 @@ def collect(results: str | Path) -> list[Path]:
         ValueError: no figure there, or more than 20 MB of them.
     """
     results = Path(results)
-    patterns = ("figures/*.png", "figures/*.pdf", "*.csv")
+    patterns = ("figures/*.png", "figures/*.pdf", "*.csv", "*.md")
     files = sorted(path for pattern in patterns for path in results.glob(pattern))
     if not any(path.parent.name == "figures" for path in files):
         raise ValueError(f"{results}: no figures here; `make figures` builds them")
@@ -37,7 +37,8 @@ def collect(results: str | Path) -> list[Path]:
         raise ValueError(f"{results}: {size / 1e6:.1f} MB, allowed are {LIMIT / 1e6:g} MB; the largest is {largest}")
     origin = provenance({})
     del origin["parameters"]  # each study has its own
-    origin["studies"] = {path.stem: _origin_of_study(path) for path in sorted(results.glob("studies/*.nc"))}
+    for kind in ("studies", "experiments"):
+        origin[kind] = {path.stem: _origin_of(path) for path in sorted(results.glob(f"{kind}/*.nc"))}
     gallery = results / "gallery"
     gallery.mkdir(exist_ok=True)
     with replacing(gallery / "PROVENANCE.json") as note:
@@ -45,7 +46,7 @@ def collect(results: str | Path) -> list[Path]:
     return [Path(shutil.copyfile(path, gallery / path.name)) for path in files]
 
 
-def _origin_of_study(path: Path) -> dict[str, object]:
+def _origin_of(path: Path) -> dict[str, object]:
     with netCDF4.Dataset(path) as file:
         origin = json.loads(file.provenance)
         return {"content_sha256": file.content_sha256, "commit": origin["commit"], "engine": origin["engine"]}

@@ -10,21 +10,23 @@ from granugas.storage.dataset import pool, read, write
 
 @pytest.fixture
 def results(tmp_path, make_run):
-    for name in ("figures/fig8.png", "figures/fig8.pdf", "powers.csv", "figures/notes.txt", "preview/figures/fig8.png"):
+    for name in ("figures/fig8.png", "figures/fig8.pdf", "powers.csv", "claims.md", "figures/notes.txt", "preview/figures/fig8.png"):
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).write_text(name)
     write(pool([make_run(0)], ["restitution"]), tmp_path / "studies/scan.nc")
+    write(make_run(1), tmp_path / "experiments/one.nc")
     return tmp_path
 
 
 def test_figures_and_tables_are_copied_under_their_names_with_their_origin(results):
     copies = gallery.collect(results)
-    assert {path.name for path in copies} == {"fig8.png", "fig8.pdf", "powers.csv"}
+    assert {path.name for path in copies} == {"fig8.png", "fig8.pdf", "powers.csv", "claims.md"}
     assert (results / "gallery/fig8.png").read_text() == "figures/fig8.png"
     assert {path.name for path in (results / "gallery").iterdir()} == {path.name for path in copies} | {"PROVENANCE.json"}
     origin = json.loads((results / "gallery/PROVENANCE.json").read_text())
     study = read(results / "studies/scan.nc")
     assert origin["studies"]["scan"]["content_sha256"] == study.attrs["content_sha256"]
+    assert origin["experiments"]["one"]["content_sha256"] == read(results / "experiments/one.nc").attrs["content_sha256"]
     assert {"commit", "package", "python", "libraries", "engine"} <= set(origin) and "parameters" not in origin
 
 
