@@ -29,12 +29,16 @@ def anisotropy(velocity: Numbers) -> float:
 def elastic_particle_fraction(last_collision_time: Numbers, time: float, contact_time: ArrayLike) -> Numbers:
     """n_e = N_e/N, the share of particles that had a collision no longer than t_c ago (A section 5.4).
 
+    Particles that collide at this very moment are left out: a sample taken at a collision, as those counted by collisions
+    are, would always find its two partners elastic, 2/N too much however short t_c is.
+
     Args:
         last_collision_time: (n,) in s, -inf for a particle that never collided.
         time: now, in s.
         contact_time: t_c in s, one or several; the result has its shape. With t_c = 0 nobody is elastic.
     """
-    return _elastic(last_collision_time, time, contact_time).mean(axis=-1)
+    others = ~_colliding(last_collision_time, time)
+    return np.sum(_elastic(last_collision_time, time, contact_time) & others, axis=-1) / max(others.sum(), 1)
 
 
 def elastic_energy_fraction(velocity: Numbers, last_collision_time: Numbers, time: float, contact_time: ArrayLike) -> Numbers:
@@ -42,10 +46,14 @@ def elastic_energy_fraction(velocity: Numbers, last_collision_time: Numbers, tim
 
     Arguments as in `elastic_particle_fraction`, velocities (n, dim) in m/s.
     """
-    energy = np.einsum("ia,ia->i", velocity, velocity)
-    return _elastic(last_collision_time, time, contact_time) @ energy / energy.sum()
+    energy = np.where(_colliding(last_collision_time, time), 0.0, np.einsum("ia,ia->i", velocity, velocity))
+    return _elastic(last_collision_time, time, contact_time) @ energy / (energy.sum() or 1.0)
 
 
 def _elastic(last_collision_time: Numbers, time: float, contact_time: ArrayLike) -> NDArray[np.bool_]:
     t_c = np.asarray(contact_time, dtype=float)[..., np.newaxis]
     return (time - last_collision_time <= t_c) & (t_c > 0)
+
+
+def _colliding(last_collision_time: Numbers, time: float) -> NDArray[np.bool_]:
+    return time - last_collision_time <= 4 * np.spacing(time)  # both are sums that may round differently

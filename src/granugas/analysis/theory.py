@@ -183,7 +183,7 @@ def released_square_velocity(
 def rate_after_collision(angle: ArrayLike) -> Numbers:
     """Rate of collisions from a direction, of a disk that has just collided, by the mean disk's: q(theta).
 
-    q = [sqrt(1 - rho^2) + rho (pi/2 + arcsin rho)], rho = -cos(theta)/2, is the mean of a product, as rates are of the
+    q(theta) = sqrt(1 - rho^2) + rho (pi/2 + arcsin rho), rho = -cos(theta)/2, is the mean of a product, as rates are of the
     speeds of approach: that of the two partners at their collision and that of the third disk now. Both are normal
     variables taken where they are positive, of correlation rho, as the partner took its part of them away.
 
@@ -194,12 +194,22 @@ def rate_after_collision(angle: ArrayLike) -> Numbers:
     return np.sqrt(1 - rho**2) + rho * (np.pi / 2 + np.arcsin(rho))
 
 
+def loss_after_collision(angle: ArrayLike) -> Numbers:
+    """As `rate_after_collision`, but with each collision counted by its energy loss, by u_n^2 of its normal speed u_n.
+
+    [3 rho (pi/2 + arcsin rho) + 3 sqrt(1 - rho^2) - (1 - rho^2)^(3/2)] / 2: the third power of the speed of approach now,
+    its first power at the collision before.
+    """
+    rho = -np.cos(angle) / 2
+    return (3 * rho * (np.pi / 2 + np.arcsin(rho)) + 3 * np.sqrt(1 - rho**2) - (1 - rho**2) ** 1.5) / 2
+
+
 def triplet_excess(angle: ArrayLike) -> Numbers:
     """[chi(theta) - 1] / nu for nu -> 0: how much more often a third disk is in touch beside the partner than alone.
 
-    chi = g_3 / g(2a)^2 of three disks, i in touch with j and k. A fourth one is kept away from the area that is within d of
-    both j and k, (sqrt(3)/2 + pi/3 - sin(theta) - theta/2) d^2 of it not kept free by i already, and none beyond 120
-    degrees.
+    chi = g_3 / g(2a)^2 of three disks, i in touch with j and k. A fourth one finds no place within d of j or of k; where
+    these areas overlap and i does not keep it away already, it gains room: (sqrt(3)/2 + pi/3 - sin(theta) - theta/2) d^2
+    up to 120 degrees, none beyond.
 
     Args:
         angle: theta in rad, from pi/3 to pi: between the directions from i to j and to k.
@@ -210,23 +220,42 @@ def triplet_excess(angle: ArrayLike) -> Numbers:
 
 
 def shielding(area_fraction: ArrayLike = 0.0) -> Numbers:
-    """q = lim c_e / (2 t_c / t_E) for t_c -> 0: .9168 + .0595 nu, exact to first order in nu; 1 in mean field (A Eq. 21).
+    """q = lim c_e / (2 t_c / t_E) for t_c -> 0: .9168 + .0595 nu, to first order in nu; 1 in mean field (A Eq. 21).
 
-    The mean of `rate_after_collision` over all directions, with chi = 0 in the partner's shadow and chi = 1 +
-    nu `triplet_excess` outside. Without the shadow q would be 1.0635: disks that collide are the fast ones.
+    The mean of `rate_after_collision` over all directions outside the partner's shadow; exact for nu -> 0, 1 % low at
+    nu = .4. Without the shadow q would be 1.0635: disks that collide are the fast ones.
     """
-    edge = np.pi / 3
-    free = _mean_over_angles(rate_after_collision, edge, np.pi)
-    crowded = _mean_over_angles(lambda angle: rate_after_collision(angle) * triplet_excess(angle), edge, 2 * edge)
-    return free + crowded * np.asarray(area_fraction, dtype=float)
+    return _outside_shadow(rate_after_collision, area_fraction)
+
+
+def loss_shielding(area_fraction: ArrayLike = 0.0) -> Numbers:
+    """As `shielding`, of collisions counted by their energy loss: 1.0891 + .0540 nu, to first order in nu.
+
+    Collisions that follow soon upon another are fewer but harder than in mean field, so the TC model, which makes them
+    elastic, saves more energy than 1 - c_e tells.
+    """
+    return _outside_shadow(loss_after_collision, area_fraction)
 
 
 def elastic_collision_fraction_shielded(contact_time: ArrayLike, rate: ArrayLike, area_fraction: ArrayLike = 0.0) -> Numbers:
-    """c_e = 1 - exp(-2 q t_c / t_E): A Eq. 21 with the right slope for t_c -> 0 (`shielding`).
-
-    1 - c_e is the factor by which the TC model reduces the dissipation of a homogeneous gas (A section 7).
-    """
+    """c_e = 1 - exp(-2 q t_c / t_E): A Eq. 21 with the right slope for t_c -> 0 (`shielding`)."""
     return elastic_collision_fraction(shielding(area_fraction) * np.asarray(contact_time), rate)
+
+
+def dissipation_factor(contact_time: ArrayLike, rate: ArrayLike, area_fraction: ArrayLike = 0.0) -> Numbers:
+    """Factor by which the TC model reduces the energy loss of a homogeneous gas of r near 1: exp(-2 q t_c / t_E).
+
+    With the q of `loss_shielding`, so the slope for t_c -> 0 is right. A section 7 expects 1 - c_e.
+    """
+    return 1 - elastic_collision_fraction(loss_shielding(area_fraction) * np.asarray(contact_time), rate)
+
+
+def _outside_shadow(function: Callable[[Numbers], Numbers], area_fraction: ArrayLike) -> Numbers:
+    """Mean over all directions of a function of theta, times chi: 0 in the shadow, else 1 + nu `triplet_excess`."""
+    edge = np.pi / 3
+    free = _mean_over_angles(function, edge, np.pi)
+    crowded = _mean_over_angles(lambda angle: function(angle) * triplet_excess(angle), edge, 2 * edge)
+    return free + crowded * np.asarray(area_fraction, dtype=float)
 
 
 def _mean_over_angles(function: Callable[[Numbers], Numbers], low: float, high: float) -> float:

@@ -6,7 +6,7 @@ import pytest
 from granugas.analysis import observables
 
 VELOCITY = np.array([[1.0, 0.0], [0.0, 2.0], [3.0, 0.0], [0.0, 0.0]])
-LAST = np.array([0.9, 0.5, 1.0, -np.inf])
+LAST = np.array([0.9, 0.5, 0.95, -np.inf])
 
 
 def test_kinetic_energy_by_axis():
@@ -40,3 +40,13 @@ def test_elastic_fractions_for_several_contact_times():
     e_e = observables.elastic_energy_fraction(VELOCITY, LAST, 1.0, contact_times)
     np.testing.assert_array_equal(n_e, [0, 0.5, 0.75])
     np.testing.assert_allclose(e_e, [0, 10 / 14, 1])
+
+
+def test_partners_of_a_collision_at_this_moment_are_left_out():
+    """Samples that are counted by collisions are taken at one; its two partners may round apart from the time."""
+    time = 65.59
+    last = np.array([time - 0.1, time, np.nextafter(time, 100), time - 1])
+    assert observables.elastic_particle_fraction(last, time, 0.2) == 0.5
+    assert observables.elastic_energy_fraction(np.diag([1.0, 9.0, 9.0, 3.0]), last, time, 0.2) == pytest.approx(0.1)
+    assert observables.elastic_particle_fraction(last[1:3], time, 0.2) == 0
+    assert observables.elastic_energy_fraction(np.ones((2, 2)), last[1:3], time, 0.2) == 0
