@@ -133,6 +133,58 @@ VARIABLES = {
     "events": Variable("1", "collisions of pairs that were carried out since t = 0", "C"),
     "stop_reason": Variable(None, "what ended the run"),
     "stop_time": Variable("s", "time at which the run ended", "t"),
+    # two particles that meet, and one ball on a plate; energies and forces per mass
+    "experiment_time": Variable("s", "time since the experiment began", "t"),
+    "soft_position": Variable("m", "positions of two soft particles in one dimension", "x_i", "A Fig. 1"),
+    "hard_position": Variable("m", "positions of two hard particles in one dimension", "x_i", "A Fig. 1"),
+    "contact_begin": Variable("s", "beginning of the soft contact", "t", "A Fig. 1"),
+    "contact_end": Variable("s", "end of the soft contact", "t", "A Fig. 1"),
+    "collision_time": Variable("s", "time of the hard collision", "t", "A Fig. 1"),
+    "gravity": Variable("m s-2", "gravitational acceleration", "g"),
+    "first_period": Variable("s", "flight that ends with the first hit", "t_1 = 2 v_1/g", "A Eq. 6"),
+    "contact_ratio": Variable("1", "contact duration by the flight before the first hit", "t_c / t_1"),
+    "hits_to_rest": Variable("1", "hits that dissipate, TC model", "n_s", "A Eq. 7"),
+    "rest_time": Variable("s", "time from the first hit to the last that dissipates, TC model", "t_s", "A Eq. 9"),
+    "rest_time_hard": Variable("s", "time from the first hit to the collapse, IHS model", "t_s", "A Eq. 8"),
+    "rest_time_difference": Variable("s", "how much earlier the ball of the TC model rests", "Delta t_s", "A Eq. 10"),
+    "hits_to_collapse": Variable("1", "hits until double precision resolves no flight, IHS model", "n"),
+    "speed_at_collapse": Variable("m s-1", "speed after the last resolved hit, IHS model", "v"),
+    "staying_period": Variable("s", "period of the ball at rest, TC model", "t_inf", "A section 4.2.1"),
+    "window": Variable("1", "length of an average by the staying period", "Delta t / t_inf", "A Eq. 11"),
+    "window_end": Variable("1", "phase at which an average ends, by the staying period", "t / t_inf", "A Eq. 11"),
+    "mean_velocity": Variable("m s-1", "mean velocity of the ball at rest", "<v>", "A section 4.2.1"),
+    "mean_square_velocity": Variable("m2 s-2", "mean square velocity of the ball at rest", "<v^2>", "A section 4.2.1"),
+    "elastic_square_velocity": Variable(
+        "m2 s-2", "the part of it within t_c after a hit", "2 E_e / m", "A sections 4.1 and 4.2.1"
+    ),
+    "mean_height": Variable("m", "mean height of the ball at rest", "<h>", "A section 4.2.1"),
+    "plate_force": Variable("1", "momentum that the plate takes in unit time, by the weight", "f / (m g)", "A section 4.2.1"),
+    "released_square_velocity": Variable(
+        "m2 s-2", "mean square velocity after gravity is switched off at a random phase", "<v^2>_{g=0}", "A section 4.2.3"
+    ),
+    "height_hard": Variable("m", "height of the ball, IHS model", "h", "A Fig. 2"),
+    "height_contact_time": Variable("m", "height of the ball, TC model", "h", "A Fig. 2"),
+    "height_soft": Variable("m", "height of a soft ball, negative in contact", "h", "A section 4.2.2"),
+    "soft_kinetic_energy": Variable("m2 s-2", "kinetic energy of the soft ball at rest", "E", "A table 1"),
+    "soft_elastic_energy": Variable("m2 s-2", "elastic energy of the soft ball at rest", "E_el = V(h_0)", "A section 4.2.2"),
+    "soft_potential_energy": Variable("m2 s-2", "potential energy of the soft ball at rest", "E_p = m g h", "A table 1"),
+    "soft_force": Variable(
+        "1", "force of the soft ball at rest on the plate, by the weight", "k h_0 / (m g)", "A section 4.2.2"
+    ),
+    "soft_contact_time": Variable("s", "contact duration of its spring without dashpot", "t_c^el", "A Eq. 12"),
+    # pressure in test volumes
+    "test_volumes": Variable("1", "number of equal test volumes that the box is cut into", "V / V_c", "A section 5.1"),
+    "averaging_interval": Variable("1", "time of an average by the length of the record", "Delta t", "A Eq. 15"),
+    "interval_collisions": Variable("1", "collisions of a particle in the time of an average", "C_r Delta t", "A Eq. 18"),
+    "kinetic_pressure": Variable("1", "kinetic pressure of test volumes, mean, by E/V of the box", "P V/E", "A Eq. 14"),
+    "streaming_pressure": Variable("1", "pressure of the mean motion of test volumes, by E/V of the box", "P V/E", "A Eq. 14"),
+    "collisional_pressure": Variable("1", "collisional pressure of test volumes, mean, by E/V of the box", "P V/E", "A Eq. 15"),
+    "tally_pressure": Variable("1", "collisional pressure of the box by the engine's own sums, by E/V", "P V/E", "A Eq. 15"),
+    "pressure_spread": Variable("1", "standard deviation of the pressure over test volumes by its mean", "sigma_P / <P>"),
+    "pressure_map": Variable("1", "pressure of each test volume, by E/V of the box", "P V/E", "A section 5.1"),
+    "pressure_series": Variable("1", "pressure of one test volume in equal steps, by E/V of the box", "P V/E", "A section 5.1"),
+    "record_begin": Variable("s", "time since t = 0 at which the record begins", "t"),
+    "record_length": Variable("s", "length of the record"),
 }
 
 
