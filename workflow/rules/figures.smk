@@ -50,6 +50,6 @@ rule claims:
     log:
         f"{OUTPUT}/logs/claims.log",
     params:
-        formulas=FORMULAS,
+        formulas=digest.digest(["granugas.analysis.*", "granugas.claims"]),
     script:
         "../scripts/claims.py"

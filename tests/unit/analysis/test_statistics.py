@@ -99,3 +99,23 @@ def test_windows_without_an_answer_are_refused():
         statistics.fit_power_law(x, y, (1, 1.1))
     with pytest.raises(ValueError, match="no realization"):
         statistics.fit_power_law(x, -y, (1, 100))
+
+
+def test_the_jackknife_of_a_mean_is_its_standard_error():
+    values = np.random.default_rng(1).normal(size=(12, 3))
+    mean, error = statistics.jackknife(lambda v: v.mean(axis=0), values)
+    assert np.allclose((mean, error), statistics.mean_and_error(values))
+
+
+def test_the_jackknife_adds_independent_groups():
+    rng = np.random.default_rng(2)
+    first, second = 5 + rng.normal(size=20), 2 + 0.1 * rng.normal(size=8)
+    ratio, error = statistics.jackknife(lambda a, b: a.mean() / b.mean(), first, second)
+    parts = [values.std(ddof=1) / np.sqrt(len(values)) / values.mean() for values in (first, second)]
+    assert ratio == pytest.approx(first.mean() / second.mean())
+    assert error == pytest.approx(ratio * np.hypot(*parts), rel=0.05)
+
+
+def test_a_single_realization_has_no_jackknife_error():
+    value, error = statistics.jackknife(lambda a, b: a.mean() - b.mean(), [3.0], [1.0, 2.0])
+    assert value == pytest.approx(1.5) and np.isnan(error)

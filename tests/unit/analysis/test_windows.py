@@ -24,7 +24,8 @@ def test_windows_without_a_sample_are_left_out():
 
 
 def test_rounding_moves_no_edge():
-    """.1 is no sum of binary fractions: the third multiple is .30000000000000004."""
+    """.1 + .2 is larger than .3, and three times .1, which is not .3 either, ends no window early or late."""
+    np.testing.assert_array_equal(equal_windows([0.0, 0.1 + 0.2, 0.6], 0.3), [0, 1, 2])
     np.testing.assert_array_equal(equal_windows(np.arange(11) / 10, 0.1), np.arange(11))
 
 

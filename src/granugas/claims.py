@@ -1,0 +1,274 @@
+"""What a paper claims, and whether it holds: verdicts are computed from datasets, never typed in.
+
+A claim is one short function of the data under `@claim(...)`; its docstring says the claim in words. What it expects and
+how far from that is still right, with the reason, stand in the decorator and are written before the data are looked at.
+"""
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import xarray as xr
+from numpy.typing import ArrayLike, NDArray
+
+Numbers = NDArray[np.float64]
+Data = Mapping[str, xr.Dataset]
+"""Datasets by the names of studies and experiments."""
+
+SIGMAS = 3
+"""So many standard errors count as no difference."""
+
+MANY = 9
+"""More numbers than these are told by their extremes."""
+
+HOLDS, FAILS, SLIP, NOT_MEASURED = "holds", "does not hold", "slip of the print", "not measured"
+COLUMNS = ("id", "section", "figure", "claim", "quantity", "expected", "measured", "error", "tolerance", "verdict", "remark")
+
+
+class NotMeasured(Exception):
+    """The data do not hold what a claim is about; says what is missing."""
+
+
+@dataclass(frozen=True)
+class Expected:
+    """An interval, and how far outside of it is still right.
+
+    Attributes:
+        low, high: ends of the interval, equal for a value; numbers, or arrays for several at once.
+        rounding: half a unit of the last figure in print.
+        absolute, relative: tolerance, in the unit of the ends and as a part of them.
+        corrected: what should have been printed, where we think that the print has a slip.
+    """
+
+    low: ArrayLike
+    high: ArrayLike
+    rounding: ArrayLike = 0.0
+    absolute: float = 0.0
+    relative: float = 0.0
+    corrected: ArrayLike | None = None
+
+    def __str__(self) -> str:
+        low, high = np.asarray(self.low, float), np.asarray(self.high, float)
+        if np.array_equal(low, high):
+            text = _numbers(low)
+        elif np.isinf(high).all():
+            text = f">= {_numbers(low)}"
+        elif np.isinf(low).all():
+            text = f"<= {_numbers(high)}"
+        else:
+            text = f"{_numbers(low)} ... {_numbers(high)}"
+        return text if self.corrected is None else f"{text} in print, {_numbers(self.corrected)} corrected"
+
+    @property
+    def tolerance(self) -> str:
+        """In words."""
+        parts = [f"{self.relative:.2g} of it".replace("0.", ".")] if self.relative else []
+        parts += [f"{self.absolute:.3g}"] if self.absolute else []
+        parts += ["rounding"] if np.any(self.rounding) else []
+        return " + ".join([*parts, f"{SIGMAS} standard errors"])
+
+
+def value(number: ArrayLike, **tolerances: Any) -> Expected:
+    """A value (or several), with the tolerances and the correction of `Expected`."""
+    return Expected(number, number, **tolerances)
+
+
+def at_least(number: ArrayLike, **tolerances: Any) -> Expected:
+    """A lower bound."""
+    return Expected(number, np.inf, **tolerances)
+
+
+def at_most(number: ArrayLike, **tolerances: Any) -> Expected:
+    """An upper bound."""
+    return Expected(-np.inf, number, **tolerances)
+
+
+def between(low: ArrayLike, high: ArrayLike, **tolerances: Any) -> Expected:
+    """A range, its ends included."""
+    return Expected(low, high, **tolerances)
+
+
+@dataclass(frozen=True)
+class Claim:
+    """One statement of a paper.
+
+    Attributes:
+        id: paper, section, number: A-6.1-03.
+        text: the claim in our words.
+        figure: name of the figure that shows it, or "".
+        quantity: what is measured, with its unit.
+        expected: what the paper says of it.
+        why: reason of the bounds and tolerances.
+        remark: where it does not hold, why we think so.
+        measure: from the data to a value, or to (value, standard error); may raise NotMeasured.
+    """
+
+    id: str
+    text: str
+    figure: str
+    quantity: str
+    expected: Expected
+    why: str
+    remark: str
+    measure: Callable[[Data], Any]
+
+    @property
+    def section(self) -> str:
+        """Of the paper."""
+        return self.id.split("-")[1]
+
+
+def claim(
+    id: str, *, quantity: str, expected: Expected, why: str, figure: str = "", remark: str = ""
+) -> Callable[[Callable[[Data], Any]], Claim]:
+    """Make a claim of a function that measures it; the function's docstring is the claim in words."""
+
+    def made(measure: Callable[[Data], Any]) -> Claim:
+        text = " ".join((measure.__doc__ or "").split())
+        return Claim(id, text, figure, quantity, expected, why, remark, measure)
+
+    return made
+
+
+def claims_in(names: Mapping[str, Any]) -> list[Claim]:
+    """All claims of a module, from its `globals()`, in the order in which they stand there."""
+    return [item for item in names.values() if isinstance(item, Claim)]
+
+
+def runs(data: Data, study: str, **point: float | int) -> xr.Dataset:
+    """The runs of one point of a study's grid; keys with one value that `point` does not name go, others stay dimensions.
+
+    Raises:
+        NotMeasured: no such study, or no runs at such a point.
+    """
+    if study not in data:
+        raise NotMeasured(f"no study {study}")
+    chosen = data[study]
+    for key, wanted in point.items():
+        there = np.atleast_1d(chosen[key].values if key in chosen.variables else chosen.attrs[key])
+        if not np.isclose(there, wanted, rtol=1e-9, atol=0).any():
+            raise NotMeasured(f"{study} has {key} = {_numbers(there)}, not {wanted:g}")
+        if key in chosen.dims:
+            chosen = chosen.isel({key: int(np.argmin(abs(there - wanted)))})
+    kept = ("realization", "time", "snapshot", "particle", "axis")
+    chosen = chosen.squeeze([dim for dim, size in chosen.sizes.items() if size == 1 and dim not in kept])
+    return chosen.dropna("realization", how="all", subset=["kinetic_energy"])
+
+
+def experiment(data: Data, name: str) -> xr.Dataset:
+    """The dataset of an experiment.
+
+    Raises:
+        NotMeasured: it is not there.
+    """
+    if name not in data:
+        raise NotMeasured(f"no experiment {name}")
+    return data[name]
+
+
+def verdict(expected: Expected, measured: ArrayLike, error: ArrayLike = 0.0) -> str:
+    """Compare: holds / holds within ... / slip of the print / does not hold. Of several values the worst decides.
+
+    It holds where the interval, with the rounding of the print, has the measured value; it holds within what is named
+    where the standard errors (NaN: unknown, taken as 0) or the tolerance are needed. The print has a slip where it does not
+    hold and the corrected value does, with the same tolerance.
+    """
+    measured, slack = np.asarray(measured, float), SIGMAS * np.nan_to_num(error)
+    excess, scale = _excess(measured, expected.low, expected.high)
+    rounding = np.asarray(expected.rounding) * (1 + 1e-9)
+    tolerance = expected.absolute + expected.relative * scale
+    if np.all(excess <= rounding):
+        return HOLDS
+    if np.all(excess <= rounding + slack):
+        return f"{HOLDS} within {SIGMAS} standard errors"
+    if np.all(excess <= rounding + slack + tolerance):
+        if expected.relative:
+            parts = np.divide(excess, scale, out=np.zeros_like(excess), where=scale > 0)
+            return f"{HOLDS} within {100 * parts.max():.3g} %"
+        return f"{HOLDS} within {np.max(excess):.2g}"
+    if expected.corrected is not None:
+        excess, scale = _excess(measured, expected.corrected, expected.corrected)
+        if np.all(excess <= rounding + slack + expected.absolute + expected.relative * scale):
+            return SLIP
+    return FAILS
+
+
+def judge(claims: Iterable[Claim], data: Data) -> pd.DataFrame:
+    """One row a claim, with the columns `COLUMNS`; what cannot be measured says why.
+
+    Raises:
+        ValueError: two claims of one id.
+    """
+    rows = [_row(one, data) for one in claims]
+    ids = [row["id"] for row in rows]
+    twice = sorted({name for name in ids if ids.count(name) > 1})
+    if twice:
+        raise ValueError(f"claims: these ids stand twice: {', '.join(twice)}")
+    return pd.DataFrame(rows, columns=list(COLUMNS))
+
+
+def page(table: pd.DataFrame) -> str:
+    """The table as a Markdown page: the verdicts counted, what does not hold and why, then all claims by section."""
+    kinds = table["verdict"].where(~table["verdict"].str.startswith(HOLDS + " within"), HOLDS + " within ...")
+    lines = ["# Claims", "", f"{len(table)} claims:", ""]
+    lines += [f"- {kind}: {count}" for kind, count in kinds.value_counts().items()]
+    open_ones = table[kinds.isin([FAILS, SLIP])]
+    if len(open_ones):
+        lines += ["", "## What does not hold", ""]
+        lines += [f"- **{row.id}** ({row.verdict}): {row.claim} {row.remark}" for row in open_ones.itertuples()]
+    for section, rows in table.groupby("section", sort=False):
+        lines += ["", f"## Section {section}", ""]
+        lines += ["| id | claim | quantity | expected | measured | verdict | figure |", "|---|---|---|---|---|---|---|"]
+        for row in rows.itertuples():
+            measured = f"{row.measured} ± {row.error}" if row.error else row.measured
+            cells = [row.id, row.claim, row.quantity, row.expected, measured, row.verdict, row.figure]
+            lines.append(f"| {' | '.join(str(cell).replace('|', chr(92) + '|') for cell in cells)} |")
+        lines += ["", "Bounds and tolerances:", ""]
+        lines += [f"- {row.id}: {row.tolerance}" for row in rows.itertuples()]
+    missing = table[kinds == NOT_MEASURED]
+    if len(missing):
+        lines += ["", "## Not measured", "", *(f"- {row.id}: {row.remark}" for row in missing.itertuples())]
+    return "\n".join(lines) + "\n"
+
+
+def _row(one: Claim, data: Data) -> dict[str, str]:
+    row = {
+        "id": one.id,
+        "section": one.section,
+        "figure": one.figure,
+        "claim": one.text,
+        "quantity": one.quantity,
+        "expected": str(one.expected),
+        "measured": "",
+        "error": "",
+        "tolerance": f"{one.expected.tolerance}: {one.why}",
+    }
+    try:
+        found = one.measure(data)
+        measured, error = found if isinstance(found, tuple) else (found, 0.0)
+        if np.isnan(measured).any():
+            raise NotMeasured("no value: the runs ended before, or nothing was counted")
+    except NotMeasured as reason:
+        return row | {"verdict": NOT_MEASURED, "remark": str(reason)}
+    said = verdict(one.expected, measured, error)
+    remark = (one.remark or "Not explained yet.") if said in (FAILS, SLIP) else ""
+    shown = _numbers(error, 2) if np.any(np.nan_to_num(error) > 0) else ""
+    return row | {"measured": _numbers(measured), "error": shown, "verdict": said, "remark": remark}
+
+
+def _excess(measured: Numbers, low: ArrayLike, high: ArrayLike) -> tuple[Numbers, Numbers]:
+    """How far the values are outside of the intervals, and the size of the end that is nearest."""
+    low, high = np.broadcast_arrays(np.asarray(low, float), np.asarray(high, float))
+    excess = np.maximum(np.maximum(low - measured, measured - high), 0)
+    ends = np.where(low - measured > measured - high, low, high)
+    return excess, np.where(np.isfinite(ends), abs(ends), 0.0)
+
+
+def _numbers(values: ArrayLike, figures: int = 4) -> str:
+    """A few numbers in full, many by the least and the largest."""
+    values = np.ravel(values)
+    if len(values) > MANY:
+        return f"{np.nanmin(values):.{figures}g} to {np.nanmax(values):.{figures}g} ({len(values)} values)"
+    return ", ".join(f"{number:.{figures}g}" for number in values)
