@@ -1,9 +1,11 @@
 """The reduced grid goes through the whole chain, and its datasets keep to physics."""
 
+import pandas as pd
 import pytest
 import yaml
 from workflow.project import ROOT, Project
 
+from granugas.claims import FAILS, HOLDS, NOT_MEASURED, SLIP
 from granugas.studies import figures_in
 
 FULL, REDUCED = (ROOT / f"config/{name}.yaml" for name in ("config", "reduced"))
@@ -16,6 +18,12 @@ def test_the_preview_builds_every_figure_and_keeps_to_physics(project: Project) 
     figures = figures_in(ROOT / "workflow/figures")
     expected = {f"{name}.{kind}" for name in figures for kind in ("png", "pdf")}
     assert {path.name for path in preview.glob("figures/*")} >= expected
+    assert {path.stem for path in preview.glob("*.csv")} == {*figures_in(ROOT / "workflow/tables"), "claims"}
+    claims = pd.read_csv(preview / "claims.csv")
+    assert len(claims) >= 45 and set(claims["verdict"].str.split(" within").str[0]) <= {HOLDS, FAILS, SLIP, NOT_MEASURED}
+    assert (claims["verdict"] != NOT_MEASURED).sum() >= 30
+    page = (preview / "claims.md").read_text()
+    assert all(name in page for name in claims["id"])
     studies = yaml.safe_load(FULL.read_text())["studies"]
     assert {path.stem for path in preview.glob("studies/*.nc")} == set(studies)
     assert (preview / "checks.txt").read_text() == f"{len(studies)} studies, no finding\n"
