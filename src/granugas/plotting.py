@@ -5,7 +5,7 @@ Figures are made without pyplot: no window, no state between two of them.
 
 from collections.abc import Callable, Iterator, Sequence
 from functools import wraps
-from itertools import product
+from itertools import cycle, product
 from pathlib import Path
 from typing import Any
 
@@ -246,7 +246,7 @@ def draw_disks(
             offset_transform=axes.transData,
             facecolors=colour[seen],
             linewidths=0,
-            antialiaseds=False,
+            snap=True,  # on whole dots: crisp, and a third of the bytes
             rasterized=True,
         )
     )
@@ -270,6 +270,7 @@ def elastic_fractions(
     for axes, label, shown in zip(panels, labels, (limits[0], limits[1], limits[1]), strict=True):
         axes.set(yscale="log", xlabel=r"$\tau$", ylabel=label, ylim=shown)
     for data, line in zip(runs, lines, strict=True):
+        line = {"linewidth": 0.8, "marker": ".", "markersize": 2} | line
         edges = equal_windows(times(data), width)
         tau = middles(data["tau"], edges)
         sums = data["elastic_collisions_per_particle"], data["collisions_per_particle"]
@@ -308,7 +309,7 @@ def by_contact_time(axes: Axes, values: xr.DataArray, **style: Any) -> None:
         style: of all points.
     """
     times = sorted(values["contact_time"].values, reverse=True)
-    for t_c, colour, marker in zip(times, shades(len(times)), MARKERS, strict=False):
+    for t_c, colour, marker in zip(times, shades(len(times)), cycle(MARKERS), strict=False):
         look = {"color": colour, "marker": marker, "markerfacecolor": "none", "label": power_of_ten(t_c)}
         error_points(axes, values.sel(contact_time=t_c), **look | style)
 
@@ -328,3 +329,28 @@ def each_run(axes: Axes, values: xr.DataArray, branch: xr.DataArray, label: str,
     for name, look in (("fluid", {"markerfacecolor": "none", "label": label}), ("crystal", {})):
         there = (branch == name).values
         axes.plot(nu.values[there], values.values[there], **style | look)
+
+
+def text_table(cells: Sequence[Sequence[str]], widths: Sequence[float], notes: Sequence[str] = ()) -> Figure:
+    """A table as a picture, ruled as in a journal: a header, rows, and notes below in small letters.
+
+    Args:
+        cells: rows of texts, the header first; the first column begins at its left edge, the others are centred.
+        widths: of the columns in inches.
+        notes: lines.
+    """
+    line, right = 0.24, sum(widths)
+    height = line * (len(cells) + 0.8 * len(notes) + 0.6)
+    figure = Figure(figsize=(right, height), layout="none")
+    axes = figure.add_axes((0, 0, 1, 1), xlim=(0, right), ylim=(height, 0))
+    axes.axis("off")
+    edges = np.cumsum([0, *widths])
+    for k, row in enumerate(cells):
+        for column, text in enumerate(row):
+            x = edges[column] + 0.05 if column == 0 else edges[column : column + 2].mean()
+            axes.text(x, line * (k + 0.65), text, ha="left" if column == 0 else "center", va="center")
+    for y, width in ((0.1, 1.0), (1.2, 0.6), (len(cells) + 0.2, 1.0)):
+        axes.plot([0.02, right - 0.02], [line * y] * 2, color="black", linewidth=width)
+    for k, text in enumerate(notes):
+        axes.text(0.05, line * (len(cells) + 0.7 + 0.8 * k), text, va="center", fontsize="small")
+    return figure

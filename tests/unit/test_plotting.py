@@ -3,13 +3,17 @@
 import runpy
 import subprocess
 import sys
+from functools import cache
+from importlib import import_module
 from pathlib import Path
 
 import matplotlib as mpl
 import numpy as np
 import pytest
 import xarray as xr
+from made_up import elastic_study
 from matplotlib import style
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 
@@ -27,7 +31,8 @@ def study(realizations=2, clusters=False, **grid):
     grid = {"n_particles": [100], "restitution": [0.4], "contact_time": [1e-5]} | grid
     shape = (*(len(values) for values in grid.values()), realizations)
     time = np.concatenate([[0], np.geomspace(1e-3, 446.6, 60)])
-    dims = (*grid, "realization", "time")
+    dims, at = (*grid, "realization", "time"), (*grid, "realization", "snapshot")
+    once = {"enskog_rate": 445.0, "box_x": 1.0, "box_y": 1.0}
     tau = np.broadcast_to(445 * time, (*shape, len(time)))
     energy = theory.homogeneous_cooling(tau, 0.4) * np.exp(0.05 * rng.normal(size=(*shape, 1)) * (time > 0))
     collisions = theory.collisions_until(tau, 0.4)
@@ -37,9 +42,15 @@ def study(realizations=2, clusters=False, **grid):
             "kinetic_energy": (dims, energy),
             "collisions_per_particle": (dims, collisions),
             "elastic_collisions_per_particle": (dims, 0.01 * collisions),
+            "elastic_particle_fraction": (dims, np.full(tau.shape, 0.004)),
+            "elastic_energy_fraction": (dims, np.full(tau.shape, 0.005)),
+            "position": ((*at, "particle", "axis"), rng.random((*shape, 2, 100, 2))),
+            "velocity": ((*at, "particle", "axis"), rng.normal(0, 0.01, (*shape, 2, 100, 2))),
+            "collision_frequency": ((*at, "particle"), rng.exponential(500, (*shape, 2, 100))),
+            **{name: (dims[:-1], np.full(shape, value)) for name, value in once.items()},
         },
-        coords=grid | {"time": time, "realization": np.arange(realizations)},
-        attrs={"area_fraction": 0.25},
+        coords=grid | {"time": time, "realization": np.arange(realizations), "snapshot": [0.1, 5.0]},
+        attrs={"area_fraction": 0.25, "diameter": 0.05, "velocity_half_width": 0.5},
     )
     if clusters:
         factors = np.array([1.05, 1.1, 1.2, 1.3, 1.4])
@@ -55,11 +66,19 @@ def needed_by(studies, realizations, contact_times):
     return {
         name: study(realizations, clusters=True)
         if name.startswith("cluster1999")
+        else elastic_study(contact_times, (0.1, 0.2, 0.72), realizations)
+        if name.startswith("tc1998_elastic")
         else study(realizations, contact_time=contact_times)
         if name == "tc1998_contact_times"
         else study(realizations, n_particles=[100 + index])
         for index, name in enumerate(studies)
     }
+
+
+@cache
+def measured(experiment):
+    """The experiment's dataset: these take seconds, so they need not be made up."""
+    return import_module(f"granugas.experiments.{experiment}").measure()
 
 
 def texts(figure):
@@ -72,11 +91,13 @@ def texts(figure):
 @pytest.mark.parametrize("name", NAMES)
 def test_every_figure_draws(name, realizations, contact_times, tmp_path):
     figure_file = runpy.run_path(str(FIGURES / f"{name}.py"))
-    studies = figure_file["STUDIES"] or ("tc1998_contact_times",)
-    figure = figure_file["draw"](needed_by(studies, realizations, contact_times))
+    experiments = figure_file.get("EXPERIMENTS", ())
+    studies = figure_file["STUDIES"] if experiments else figure_file["STUDIES"] or ("tc1998_contact_times",)
+    made = {name: measured(name) for name in experiments}
+    figure = figure_file["draw"](needed_by(studies, realizations, contact_times) | made)
     plotting.save(figure, tmp_path / "figure.png")
     assert (tmp_path / "figure.png").stat().st_size > 10_000
-    assert all(axes.get_xscale() == "log" and axes.lines for axes in figure.axes)
+    assert all(axes.has_data() for axes in figure.axes)
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -217,3 +238,109 @@ def test_words():
     points[0]["n_particles"], points[1]["contact_time"] = 42, 0.0
     assert plotting.point_names(points)[0] == "$N$ = $42$, $t_c$ = $10^{-5}$, lattice = auto"
     assert plotting.point_names(points)[1] == "$N$ = $97776$, $t_c$ = $0$, lattice = square"
+
+
+def test_points_have_bars_where_there_are_several_runs():
+    axes = Figure().add_subplot()
+    values = xr.DataArray([[1.0, 2.0, np.nan], [3.0, np.nan, np.nan]], {"x": [10, 20, 30]}, ("realization", "x"))
+    plotting.error_points(axes, values, color="C1")
+    ((points, _, (bars,)),) = axes.containers
+    np.testing.assert_allclose(points.get_data(), [[10, 20], [2, 2]])
+    np.testing.assert_allclose([np.ptp(bar[:, 1]) for bar in bars.get_segments()], [2, 0])
+
+
+def test_contact_times_in_the_legend():
+    axes = Figure().add_subplot()
+    values = xr.DataArray(
+        np.ones((12, 2, 3)), {"contact_time": np.geomspace(1e-12, 1e-1, 12)}, ("contact_time", "realization", "x")
+    )
+    plotting.by_contact_time(axes, values.assign_coords(x=[1, 2, 3]))
+    labels = axes.get_legend_handles_labels()[1]
+    assert len(labels) == 12 and (labels[0], labels[-1]) == ("$10^{-1}$", "$10^{-12}$")
+
+
+def test_each_run_is_a_point_and_crystals_are_filled():
+    axes = Figure().add_subplot()
+    dims = ("area_fraction", "realization")
+    values = xr.DataArray([[1.0, 2.0], [3.0, 4.0]], {"area_fraction": [0.2, 0.8]}, dims)
+    plotting.each_run(axes, values, xr.DataArray([["fluid"] * 2, ["crystal"] * 2], dims=dims), "runs", marker="o", color="C0")
+    fluid, crystal = axes.lines
+    np.testing.assert_allclose(fluid.get_data(), [[0.2, 0.2], [1, 2]])
+    np.testing.assert_allclose(crystal.get_data(), [[0.8, 0.8], [3, 4]])
+    assert (fluid.get_markerfacecolor(), crystal.get_markerfacecolor()) == ("none", "C0")
+    assert axes.get_legend_handles_labels()[1] == ["runs"]
+
+
+def test_quality_factors_are_drawn_as_they_are():
+    data = {"tc1998_elastic_n1435": elastic_study((1e-4, 1e-3), (0.1, 0.2), 3)}
+    for name, expected in {"tc1998_fig05": 1.0, "tc1998_fig06": 0.95, "tc1998_fig07": 1.25}.items():
+        for axes in runpy.run_path(str(FIGURES / f"{name}.py"))["draw"](data).axes:
+            drawn = [points.get_data() for points, *_ in axes.containers]
+            np.testing.assert_allclose(drawn, [[[0.1, 0.2], [expected] * 2]] * 2)
+
+
+def test_thinned_runs_keep_what_a_logarithmic_axis_shows():
+    linear = xr.Dataset({"tau": ("time", np.arange(5001.0))}, {"time": np.arange(5001) / 1000})
+    few = plotting.thinned(linear, 100)
+    assert 60 < few.sizes["time"] <= 101
+    assert (float(few["time"][0]), float(few["time"][-1])) == (0.0, 5.0)
+    assert np.diff(np.log(few["time"].values[1:])).max() <= np.log(2) + 1e-12  # 1 ms to 2 ms
+    assert plotting.thinned(few.isel(time=[0, 1, 2]), 100).sizes["time"] == 3
+
+
+def test_means_of_counts():
+    """Arithmetic, where a realization has none too; nothing where all have none."""
+    axes = Figure().add_subplot(yscale="log", ylim=(0.1, 10))
+    values = xr.DataArray([[0.0, 0.0, 2.0, np.nan], [4.0, 0.0, 2.0, np.nan]], dims=("realization", "time"))
+    line = plotting.mean_and_range(axes, xr.DataArray([1.0, 2.0, 3.0, 4.0], dims="time"), values)
+    np.testing.assert_allclose(line.get_ydata(), [2.0, np.nan, 2.0, np.nan])
+    plotting.mean_and_range(axes, xr.DataArray([1.0, 2.0, 3.0, 4.0], dims="time"), values[:1])
+    assert len(axes.collections) == 1
+
+
+def test_blue_green_red():
+    colour = plotting.blue_green_red(300, 700, 1100).to_rgba
+    for rate, strongest in ((0, 2), (300, 2), (700, 1), (1100, 0), (5000, 0)):
+        assert np.argmax(colour(rate)[:3]) == strongest
+    assert colour(100) == colour(300) != colour(400)
+    assert colour(9000) == colour(1100) != colour(1000)
+
+
+def test_disks_are_drawn_to_scale_and_across_the_edges():
+    """A fourth of the box is covered, by each disk alike wherever it lies."""
+    n = 8
+    covered = []
+    for shift in (0.0, 0.5):
+        figure = Figure(figsize=(4, 4))
+        axes = figure.add_axes((0, 0, 1, 1))
+        d = np.sqrt(4 * 0.25 / np.pi) / n
+        position = (np.stack(np.meshgrid(*[np.arange(n)] * 2), axis=-1).reshape(-1, 2) + shift) / n
+        plotting.draw_disks(axes, position, (1.0, 1.0), d, np.tile([0.0, 0.0, 0.0, 1.0], (n * n, 1)))
+        axes.set_axis_off()
+        canvas = FigureCanvasAgg(figure)
+        canvas.draw()
+        covered.append(1 - np.asarray(canvas.buffer_rgba())[..., 0].mean() / 255)
+    np.testing.assert_allclose(covered, 0.25, rtol=0.06)
+
+
+def test_elastic_fractions_in_windows():
+    runs = study(2).squeeze(drop=True)
+    figure = plotting.elastic_fractions([runs], [{"label": "one"}], 10.0, ((1e-3, 1), (1e-4, 1)))
+    assert [axes.get_ylim()[0] for axes in figure.axes] == [1e-3, 1e-4, 1e-4]
+    for axes, expected in zip(figure.axes, (0.01, 0.004, 0.005), strict=True):
+        np.testing.assert_allclose(axes.lines[0].get_ydata(), expected, rtol=1e-9)
+
+
+def test_text_tables_keep_inside_their_columns():
+    cells = [["", "one", "two"], ["energy", "$E = 0.1250$", "$-$"], ["force", "$f = 1$", ""]]
+    figure = plotting.styled(lambda _: plotting.text_table(cells, [1.2, 1.0, 0.8], ["a note"]))({})
+    (axes,) = figure.axes
+    FigureCanvasAgg(figure).draw()
+    boxes = [text.get_window_extent().transformed(axes.transData.inverted()) for text in axes.texts]
+    assert [text.get_text() for text in axes.texts] == [*(cell for row in cells for cell in row), "a note"]
+    edges = np.array([0, 1.2, 2.2, 3.0])
+    for k, box in enumerate(boxes[:-1]):
+        assert edges[k % 3] <= box.x0 <= box.x1 <= edges[k % 3 + 1]
+    middles = [(box.y0 + box.y1) / 2 for box in boxes]
+    rules = [line.get_ydata()[0] for line in axes.lines]
+    assert rules[0] < middles[1] < rules[1] < middles[4] < middles[7] < rules[2] < middles[-1] < axes.get_ylim()[0]

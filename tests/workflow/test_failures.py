@@ -20,7 +20,7 @@ CONFIG = {
             "samples": {"count": 5},
         }
         for name, restitution in (("doomed", 0.4), ("sound", 0.8))
-    }
+    },
 }
 DOOM = """
 

@@ -10,7 +10,14 @@ from granugas.storage.dataset import pool, read, write
 
 @pytest.fixture
 def results(tmp_path, make_run):
-    for name in ("figures/fig8.png", "figures/fig8.pdf", "powers.csv", "claims.md", "figures/notes.txt", "preview/figures/fig8.png"):
+    for name in (
+        "figures/fig8.png",
+        "figures/fig8.pdf",
+        "powers.csv",
+        "claims.md",
+        "figures/notes.txt",
+        "preview/figures/fig8.png",
+    ):
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).write_text(name)
     write(pool([make_run(0)], ["restitution"]), tmp_path / "studies/scan.nc")

@@ -1,0 +1,52 @@
+"""A watch that writes down where and how hard disks collide: what the stress of a test volume is made of (A Eq. 15)."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from granugas.dynamics.events.cells import nearest_image, steps_between
+from granugas.dynamics.events.composition import implements
+from granugas.dynamics.events.loop import witness
+from granugas.dynamics.events.memory import Record, Table
+
+SEEN = np.dtype([("time", "f8"), ("x", "f8"), ("y", "f8"), ("nx", "f8"), ("ny", "f8"), ("dp", "f8")])
+"""Time (s); the point of contact (d), up to half a diameter outside of the box; the unit vector from the one disk to the other;
+the momentum (m d/s) that the one gains along it, and the other loses: negative, as disks repel each other."""
+
+COUNT = np.dtype([("n", "i8")])
+
+
+class Contacts(NamedTuple):
+    """A table of SEEN collisions with room for `size` of them."""
+
+    seen: Table
+    count: Record
+    size: int
+
+
+def contacts(size: int) -> Contacts:
+    """A watch that ends the loop whenever it is full; it must be emptied by `take` before the loop goes on."""
+    return Contacts(Table(np.zeros(size, SEEN)), Record(np.zeros(1, COUNT)), size)
+
+
+def take(watch: Contacts) -> np.ndarray:
+    """The collisions (n,) of SEEN since they were last taken, in order of time."""
+    n = watch.count.n
+    watch.count.n = 0
+    return watch.seen.rows[:n].copy()
+
+
+@implements(witness, Contacts)
+def _contacts(watch, gas, i, j, now, since, u_n):
+    disks, grid, seen, k = gas.disks, gas.grid, watch.seen, watch.count.n
+    nx = disks.x[j] - disks.x[i] + grid.width_x * steps_between(disks.cx[i], disks.cx[j], grid.nx)
+    ny = disks.y[j] - disks.y[i] + grid.width_y * steps_between(disks.cy[i], disks.cy[j], grid.ny)
+    nx, ny = nearest_image(nx, grid.box_x), nearest_image(ny, grid.box_y)  # of length 1: they touch
+    seen.time[k] = gas.calendar.base + (gas.calendar.base_low + now)
+    seen.x[k] = disks.x[i] + (disks.cx[i] + 0.5) * grid.width_x + 0.5 * nx
+    seen.y[k] = disks.y[i] + (disks.cy[i] + 0.5) * grid.width_y + 0.5 * ny
+    seen.nx[k], seen.ny[k] = nx, ny
+    parting = (disks.vx[j] - disks.vx[i]) * nx + (disks.vy[j] - disks.vy[i]) * ny
+    seen.dp[k] = 0.5 * (u_n - parting)  # A Eq. 2, whatever the rule
+    watch.count.n = k + 1
+    return k + 1 == watch.size
