@@ -62,6 +62,14 @@ def test_time_is_that_of_the_gas_however_long_it_runs():
     assert 15 < seen["time"][-1] <= 20.0
 
 
+def test_a_full_watch_keeps_nothing_more():
+    engine = Engine(GAS, lattice_gas(GAS), watch=contacts(5))
+    whole = engine.watch.seen.rows
+    assert [engine.advance(1.0) for _ in range(3)] == [loop.WATCH] * 3
+    assert engine.watch.count.n == 5 == len(whole)
+    assert len(take(engine.watch)) == 5
+
+
 def test_how_often_it_is_emptied_changes_nothing():
     often, one = seen_until(GAS, 0.05, room=7)
     seldom, other = seen_until(GAS, 0.05, room=100_000)

@@ -25,7 +25,7 @@ class Contacts(NamedTuple):
 
 
 def contacts(size: int) -> Contacts:
-    """A watch that ends the loop whenever it is full; it must be emptied by `take` before the loop goes on."""
+    """A watch that ends the loop whenever it is full; while nobody empties it by `take`, collisions are not kept."""
     return Contacts(Table(np.zeros(size, SEEN)), Record(np.zeros(1, COUNT)), size)
 
 
@@ -39,6 +39,8 @@ def take(watch: Contacts) -> np.ndarray:
 @implements(witness, Contacts)
 def _contacts(watch, gas, i, j, now, since, u_n):
     disks, grid, seen, k = gas.disks, gas.grid, watch.seen, watch.count.n
+    if k == watch.size:
+        return True
     nx = disks.x[j] - disks.x[i] + grid.width_x * steps_between(disks.cx[i], disks.cx[j], grid.nx)
     ny = disks.y[j] - disks.y[i] + grid.width_y * steps_between(disks.cy[i], disks.cy[j], grid.ny)
     nx, ny = nearest_image(nx, grid.box_x), nearest_image(ny, grid.box_y)  # of length 1: they touch

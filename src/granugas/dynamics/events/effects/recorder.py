@@ -21,13 +21,15 @@ class Recorder(NamedTuple):
 
 
 def recorder(size: int) -> Recorder:
-    """A recorder that ends the loop after `size` collisions."""
+    """A recorder that ends the loop after `size` collisions; later ones are not kept."""
     return Recorder(Table(np.zeros(size, SEEN)), Record(np.zeros(1, COUNT)), size)
 
 
 @implements(witness, Recorder)
 def _recorder(watch, gas, i, j, now, since, u_n):
     k = watch.count.n
+    if k == watch.size:
+        return True
     watch.seen.time[k], watch.seen.i[k], watch.seen.j[k] = now, min(i, j), max(i, j)
     watch.count.n = k + 1
     return k + 1 == watch.size
