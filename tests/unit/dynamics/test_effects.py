@@ -85,6 +85,13 @@ def test_three_beads_collapse_below_the_exact_bound(r):
     assert engine.involved().tolist() == [0, 1, 2]
 
 
+def test_who_goes_on_after_a_collapse_is_stopped_again():
+    _, engine = bead_run(0.03)
+    for _ in range(3):
+        assert engine.advance(3.0) == loop.WATCH
+        assert engine.watch.count.n == UNRESOLVED
+
+
 @pytest.mark.parametrize("r", [0.09, 0.2, 0.8])
 def test_three_beads_part_above_it(r):
     why, engine = bead_run(r)

@@ -42,6 +42,8 @@ def _collapse_watch(watch, gas, i, j, now, since, u_n):
     if -u_n * since >= RESOLUTION:
         return False
     k = watch.count.n
+    if k == UNRESOLVED:
+        return True
     watch.involved.i[k], watch.involved.j[k] = i, j
     watch.count.n = k + 1
     return k + 1 == UNRESOLVED
