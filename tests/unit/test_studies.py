@@ -1,6 +1,7 @@
 """Configurations become runs; their addresses follow from physics and from nothing else."""
 
 import copy
+import math
 import os
 import subprocess
 import sys
@@ -162,6 +163,11 @@ def test_larger_and_longer_runs_are_expected_to_cost_more() -> None:
     small, large = (load_study(grid={"n_particles": n}).runs[0].cost for n in (100, 100_000))
     assert large > 10 * small
     assert load_study(until={"time": 50.0}).runs[0].cost > load_study().runs[0].cost
+
+
+def test_short_contact_times_are_expected_to_cost_more() -> None:
+    rare, often, endless = (load_study(grid={"contact_time": t}).runs[0].cost for t in (1e-3, 1e-12, 0.0))
+    assert rare < often / 5 and often <= endless < math.inf
 
 
 @given(st.floats(min_value=1e-12, max_value=1e12))
