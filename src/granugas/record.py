@@ -61,7 +61,7 @@ class Record:
         }
         self._start, self._energy = start, float(kinetic_energy(start.velocity).sum())
         self._rate = float(enskog_rate(scene.area_fraction, self._energy / n, scene.diameter))
-        self._done, self._windows = 0, {}
+        self._done, self._windows, self._so_far = 0, {}, np.zeros(len(self._contact_times))
         self._collisions, self._elastic_collisions = 0, np.zeros(len(self._contact_times), np.int64)
         self._write(start)
 
@@ -143,8 +143,9 @@ class Record:
         instant = (state.last_collision_time, state.time, self._contact_times)
         self._elastic["elastic_particle_fraction"][k] = elastic_particle_fraction(*instant)
         self._elastic["elastic_energy_fraction"][k] = elastic_energy_fraction(state.velocity, *instant)
-        since = state.time - state.last_collision_time
-        self._so_far = np.minimum(since, self._contact_times[:, np.newaxis]).sum(axis=1)  # elastic since the last collisions
+        if ELASTIC_ON_AVERAGE in self._elastic:  # how long the particles were elastic since their last collisions
+            since = state.time - state.last_collision_time
+            self._so_far = np.minimum(since, self._contact_times[:, np.newaxis]).sum(axis=1)
         if self._trajectory is not None:
             self._trajectory[k] = state.position
         self._done += 1

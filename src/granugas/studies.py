@@ -106,13 +106,13 @@ def load(config: Mapping[str, Any], schema: Mapping[str, Any], figures: Mapping[
     left_out = {name: tuple(n for n in needs if n not in studies) for name, needs in figures.items()}
     left_out = {name: missing for name, missing in left_out.items() if missing}
     possible = {name: needs for name, needs in figures.items() if name not in left_out}
-    if whole["figures"] == "all":
+    everything = whole["figures"] == "all"
+    if everything:
         used = set(itertools.chain(*possible.values()))
         wanted = (*possible, *(name for name, (study,) in overviews.items() if study not in used))
     else:
         wanted = _asked_for(whole["figures"], possible | overviews, left_out)
         left_out = {}
-    everything = whole["figures"] == "all"
     return Studies(str(PurePath(whole["output"])), studies, possible | overviews, wanted, left_out, everything)
 
 

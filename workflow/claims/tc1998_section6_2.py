@@ -168,6 +168,13 @@ def liquid_clusters(data):
     return np.sqrt(((inside - inside.mean(axis=0)) ** 2).sum(axis=1).mean() / (velocities**2).sum(axis=1).mean())
 
 
+def widest(data, contact_times, first, last):
+    """The largest factor between T of two of these contact times for tau = first ... last, and its error."""
+    tau, values = energies(data, contact_times)
+    shown = evenly(tau, first, last)
+    return jackknife(lambda v: np.exp(np.ptp(log_mean(v), axis=0).max()), values[:, :, shown])
+
+
 @claim(
     "A-6.2-08",
     figure="tc1998_fig12",
@@ -177,9 +184,7 @@ def liquid_clusters(data):
 )
 def same_behaviour(data):
     """All t_c < 5e-4 s lead to the same functional behaviour of T."""
-    tau, values = energies(data, SMALL)
-    shown = evenly(tau, 1, 200)
-    return jackknife(lambda v: np.exp(np.ptp(log_mean(v), axis=0).max()), values[:, :, shown])
+    return widest(data, SMALL, 1, 200)
 
 
 @claim(
@@ -191,9 +196,7 @@ def same_behaviour(data):
 )
 def small_deviations(data):
     """For large tau there are small deviations."""
-    tau, values = energies(data, SMALL)
-    shown = evenly(tau, 200, np.inf)
-    return jackknife(lambda v: np.exp(np.ptp(log_mean(v), axis=0).max()), values[:, :, shown])
+    return widest(data, SMALL, 200, np.inf)
 
 
 @claim(

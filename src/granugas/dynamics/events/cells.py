@@ -83,3 +83,12 @@ def nearest_image(separation, box):
     if abs(separation) <= 0.5 * box:
         return separation
     return separation - box * math.floor(separation / box + 0.5)
+
+
+@inline
+def separation(gas, i, j):
+    """From disk i to disk j, to its nearest image, in the same or in neighbouring cells and both placed at one time (d)."""
+    disks, grid = gas.disks, gas.grid
+    x = disks.x[j] - disks.x[i] + grid.width_x * steps_between(disks.cx[i], disks.cx[j], grid.nx)
+    y = disks.y[j] - disks.y[i] + grid.width_y * steps_between(disks.cy[i], disks.cy[j], grid.ny)
+    return nearest_image(x, grid.box_x), nearest_image(y, grid.box_y)

@@ -2,7 +2,7 @@
 
 import math
 
-from granugas.dynamics.events.cells import nearest_image, steps_between
+from granugas.dynamics.events.cells import separation
 from granugas.dynamics.events.composition import generic, inline
 from granugas.dynamics.events.flight import position
 
@@ -18,14 +18,12 @@ def collide(gas, i, j, now):
 
     Returns the time since the last collision of the partner that collided last, and the normal relative velocity before.
     """
-    disks, clocks, grid, tally = gas.disks, gas.clocks, gas.grid, gas.tally
+    disks, clocks, tally = gas.disks, gas.clocks, gas.tally
     disks.x[i], disks.y[i] = position(gas, i, now)
     disks.x[j], disks.y[j] = position(gas, j, now)
     disks.t[i] = disks.t[j] = now
 
-    nx = disks.x[j] - disks.x[i] + grid.width_x * steps_between(disks.cx[i], disks.cx[j], grid.nx)
-    ny = disks.y[j] - disks.y[i] + grid.width_y * steps_between(disks.cy[i], disks.cy[j], grid.ny)
-    nx, ny = nearest_image(nx, grid.box_x), nearest_image(ny, grid.box_y)
+    nx, ny = separation(gas, i, j)
     norm = math.sqrt(nx * nx + ny * ny)
     nx, ny = nx / norm, ny / norm
 

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from granugas.dynamics.events.cells import nearest_image, steps_between
+from granugas.dynamics.events.cells import separation
 from granugas.dynamics.events.composition import implements
 from granugas.dynamics.events.loop import witness
 from granugas.dynamics.events.memory import Record, Table
@@ -41,9 +41,7 @@ def _contacts(watch, gas, i, j, now, since, u_n):
     disks, grid, seen, k = gas.disks, gas.grid, watch.seen, watch.count.n
     if k == watch.size:
         return True
-    nx = disks.x[j] - disks.x[i] + grid.width_x * steps_between(disks.cx[i], disks.cx[j], grid.nx)
-    ny = disks.y[j] - disks.y[i] + grid.width_y * steps_between(disks.cy[i], disks.cy[j], grid.ny)
-    nx, ny = nearest_image(nx, grid.box_x), nearest_image(ny, grid.box_y)  # of length 1: they touch
+    nx, ny = separation(gas, i, j)  # of length 1: they touch
     seen.time[k] = gas.calendar.base + (gas.calendar.base_low + now)
     seen.x[k] = disks.x[i] + (disks.cx[i] + 0.5) * grid.width_x + 0.5 * nx
     seen.y[k] = disks.y[i] + (disks.cy[i] + 0.5) * grid.width_y + 0.5 * ny
