@@ -3,8 +3,8 @@
 On the way into a collapse both the time between collisions and the approach speed fall geometrically, so the distance that
 is left between two partners falls out of what double precision resolves after some tens of collisions. From there on the
 rounding, not the model, decides. A collision whose partners moved less than RESOLUTION towards each other since one of them
-collided last is such a collision; in a gas or a dense cluster that is as good as impossible, in a collapse there is no end
-of them.
+collided last is such a collision. Disks that stick, r = 0, have some of them whenever three meet, a gas or a dense cluster
+as good as none, in a collapse there is no end of them: so many, or a single one at which the partners are at REST, end it.
 """
 
 from typing import NamedTuple
@@ -20,6 +20,9 @@ RESOLUTION = 1.0e-13
 
 UNRESOLVED = 100
 """Unresolved collisions that are called a collapse."""
+
+REST = 1.0e-12
+"""An approach more slowly than this part of their speeds: finitely many collisions never make disks of r > 0 so slow."""
 
 INVOLVED = np.dtype([("i", "i4"), ("j", "i4")])
 COUNT = np.dtype([("n", "i8")])
@@ -46,4 +49,6 @@ def _collapse_watch(watch, gas, i, j, now, since, u_n):
         return True
     watch.involved.i[k], watch.involved.j[k] = i, j
     watch.count.n = k + 1
-    return k + 1 == UNRESOLVED
+    disks = gas.disks
+    speed_2 = disks.vx[i] ** 2 + disks.vy[i] ** 2 + disks.vx[j] ** 2 + disks.vy[j] ** 2
+    return k + 1 == UNRESOLVED or u_n * u_n < REST * REST * speed_2
