@@ -17,6 +17,7 @@ rule all:
     input:
         [f"{OUTPUT}/figures/{name}.{kind}" for name in STUDIES.wanted for kind in ("png", "pdf")],
         tables(),
+        animations(),
 
 
 include: "workflow/rules/simulate.smk"

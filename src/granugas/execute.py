@@ -19,7 +19,7 @@ def start_states(run: Run) -> xr.Dataset:
 
 
 def perform(run: Run, states: xr.Dataset) -> xr.Dataset:
-    """The dataset of a run from its start states, with `trajectory` where positions are kept."""
+    """The dataset of a run from its start states, with `trajectory` (and its motion) where that is kept."""
     return _together(
         simulate(
             run.scene,
@@ -30,6 +30,7 @@ def perform(run: Run, states: xr.Dataset) -> xr.Dataset:
             snapshots=run.snapshots,
             state=realization_of(states, k),
             keep_positions=run.keep_positions,
+            keep_motion=run.keep_motion,
         )
         for k in run.realizations
     )

@@ -41,8 +41,16 @@ ELASTIC_ON_AVERAGE = "elastic_particle_time_fraction"
 class Record:
     """Arrays that fill as the run goes on; what it does not reach stays NaN."""
 
-    def __init__(self, scene: Scene, start: State, points: Samples, snapshots: Sequence[float], keep_positions: bool) -> None:
-        """Take the sample at t = 0. `snapshots` in s; with `keep_positions` every sample keeps the positions."""
+    def __init__(
+        self,
+        scene: Scene,
+        start: State,
+        points: Samples,
+        snapshots: Sequence[float],
+        keep_positions: bool,
+        keep_motion: bool = False,
+    ) -> None:
+        """Take the sample at t = 0. `snapshots` in s; every sample keeps the positions, and the motion, if told so."""
         self._scene, self._points = scene, points
         self._contact_times = np.array(sorted(scene.contact_times))
         self.snapshots = np.array(sorted(snapshots), dtype=float)
@@ -51,7 +59,10 @@ class Record:
         self._series = {name: np.full(count, np.nan) for name in SERIES}
         on_average = (ELASTIC_ON_AVERAGE,) if scene.restitution == 1 and self._contact_times.any() else ()
         self._elastic = {name: np.full((count, len(self._contact_times)), np.nan) for name in (*ELASTIC, *on_average)}
-        self._trajectory = np.full((count, n, 2), np.nan) if keep_positions else None
+        self._trajectory = {"trajectory": np.full((count, n, 2), np.nan)} if keep_positions else {}
+        if keep_motion:
+            self._trajectory["trajectory_velocity"] = np.full((count, n, 2), np.nan, np.float32)
+            self._trajectory["trajectory_collisions"] = np.full((count, n), -1, np.int32)
         self._particles = {
             "position": np.full((len(self.snapshots), n, 2), np.nan),
             "velocity": np.full((len(self.snapshots), n, 2), np.nan),
@@ -126,8 +137,8 @@ class Record:
             data[name] = (("snapshot", "particle", "axis")[: values.ndim], values)
         data["initial_y"] = ("particle", self._start.position[:, 1])
         data["enskog_rate"] = self._rate
-        if self._trajectory is not None:
-            data["trajectory"] = (("time", "particle", "axis"), self._trajectory)
+        for name, values in self._trajectory.items():
+            data[name] = (("time", "particle", "axis")[: values.ndim], values)
         return data
 
     def _write(self, state: State) -> None:
@@ -146,6 +157,7 @@ class Record:
         if ELASTIC_ON_AVERAGE in self._elastic:  # how long the particles were elastic since their last collisions
             since = state.time - state.last_collision_time
             self._so_far = np.minimum(since, self._contact_times[:, np.newaxis]).sum(axis=1)
-        if self._trajectory is not None:
-            self._trajectory[k] = state.position
+        now = {"trajectory": state.position, "trajectory_velocity": state.velocity, "trajectory_collisions": state.collisions}
+        for name, values in self._trajectory.items():
+            values[k] = now[name]
         self._done += 1

@@ -33,6 +33,7 @@ class Run:
         snapshots: times in s, ascending.
         equilibration: collisions per particle before the start state is judged.
         keep_positions: whether positions at the sampling times are kept.
+        keep_motion: whether velocities and numbers of collisions are kept with them.
     """
 
     scene: Scene
@@ -43,6 +44,7 @@ class Run:
     snapshots: tuple[float, ...]
     equilibration: float
     keep_positions: bool
+    keep_motion: bool = False
 
     @property
     def address(self) -> str:
@@ -57,6 +59,7 @@ class Run:
             "snapshots": self.snapshots,
             "keep_positions": self.keep_positions,
         }
+        content |= {"keep_motion": True} if self.keep_motion else {}
         kept = "_xy" if self.keep_positions else ""
         return f"{name}_{digest_of(self._stream | content)}{kept}"
 

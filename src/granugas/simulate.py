@@ -34,6 +34,7 @@ def simulate(
     snapshots: Sequence[float] = (),
     state: xr.Dataset | None = None,
     keep_positions: bool = True,
+    keep_motion: bool = False,
     progress: bool = True,
 ) -> xr.Dataset:
     """Simulate a scene from equilibrium at t = 0.
@@ -46,6 +47,7 @@ def simulate(
         snapshots: times in s at which all particles are kept.
         state: a start state of `equilibrate`; made if it is not given.
         keep_positions: keep the positions at all sampling times, as `trajectory`, for the clusters.
+        keep_motion: keep velocities and numbers of collisions with them, for an animation.
         progress: show a bar on a terminal.
 
     Returns:
@@ -64,7 +66,7 @@ def simulate(
     if state is None:
         state = equilibrate(scene, seed=seed, realization=realization, progress=progress)
     engine = Engine(scene, state_of(state))
-    record = Record(scene, engine.state(), points, snapshots, keep_positions)
+    record = Record(scene, engine.state(), points, snapshots, keep_positions, keep_motion)
     bar = Progress(f"N = {scene.n_particles}, r = {scene.restitution:g}", limits.time or math.inf, shown=progress)
     reason = _run(engine, bar, *_stops(scene.n_particles, limits, points, record))
     bar.close()

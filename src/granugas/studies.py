@@ -46,6 +46,19 @@ class Study:
 
 
 @dataclass(frozen=True)
+class Animation:
+    """A film of the first realization of a study.
+
+    Attributes:
+        run: which keeps positions and motion at its sampling times, the frames.
+        colour: what the colours of the disks mean.
+    """
+
+    run: Run
+    colour: str
+
+
+@dataclass(frozen=True)
 class Studies:
     """Everything that a configuration asks for.
 
@@ -56,6 +69,7 @@ class Studies:
         wanted: names of those that the configuration asks for.
         left_out: figures that `all` cannot build, with the studies that are missing.
         all_wanted: whether the configuration asks for all there is.
+        animations: by name.
     """
 
     output: str
@@ -64,6 +78,7 @@ class Studies:
     wanted: tuple[str, ...]
     left_out: Mapping[str, tuple[str, ...]]
     all_wanted: bool
+    animations: Mapping[str, Animation]
 
     def possible(self, products: Mapping[str, tuple[str, ...]]) -> dict[str, tuple[str, ...]]:
         """Those products (tables, claims) whose studies are all configured."""
@@ -100,7 +115,13 @@ def load(config: Mapping[str, Any], schema: Mapping[str, Any], figures: Mapping[
     check_structure(config, schema)
     whole = with_defaults(config, schema)
     piece = schema["$defs"]["study"]
-    studies = {name: _study(name, with_defaults(block, piece), whole["seed"]) for name, block in whole["studies"].items()}
+    scripts = {name: with_defaults(block, schema["$defs"]["animation"]) for name, block in whole["animations"].items()}
+    filmed = {block["study"] for block in scripts.values()}
+    studies = {
+        name: _study(name, with_defaults(block, piece), whole["seed"], name in filmed)
+        for name, block in whole["studies"].items()
+    }
+    animations = {name: _animation(f"animations.{name}", block, studies) for name, block in scripts.items()}
     figures = figures or {}
     overviews = {f"study_{name}": (name,) for name in studies}
     left_out = {name: tuple(n for n in needs if n not in studies) for name, needs in figures.items()}
@@ -113,7 +134,8 @@ def load(config: Mapping[str, Any], schema: Mapping[str, Any], figures: Mapping[
     else:
         wanted = _asked_for(whole["figures"], possible | overviews, left_out)
         left_out = {}
-    return Studies(str(PurePath(whole["output"])), studies, possible | overviews, wanted, left_out, everything)
+    output = str(PurePath(whole["output"]))
+    return Studies(output, studies, possible | overviews, wanted, left_out, everything, animations)
 
 
 def figures_in(folder: Path) -> dict[str, tuple[str, ...]]:
@@ -130,7 +152,19 @@ def experiments_in(folder: Path) -> dict[str, tuple[str, ...]]:
     return {path.stem: _names_in(path, "EXPERIMENTS", ()) for path in _files_in(folder)}
 
 
-def _study(name: str, block: Mapping[str, Any], seed: int) -> Study:
+def _animation(where: str, block: Mapping[str, Any], studies: Mapping[str, Study]) -> Animation:
+    study = block["study"]
+    if study not in studies:
+        raise unknown(f"{where}.study", study, study, studies, kind="study")
+    first, *others = studies[study].runs
+    if len(first.realizations) > 1 or any(run.scene != first.scene for run in others):
+        allowed = "allowed is a study with one point in its grid and one realization a job"
+        raise ConfigError(f"{where}.study", study, allowed)
+    return Animation(first, block["colour"])
+
+
+def _study(name: str, block: Mapping[str, Any], seed: int, filmed: bool) -> Study:
+    """A study; where it is filmed, the first realization keeps what the animation shows."""
     where = f"studies.{name}"
     for key in block["scene"]:
         if key in block["grid"]:
@@ -150,10 +184,10 @@ def _study(name: str, block: Mapping[str, Any], seed: int) -> Study:
         "samples": _samples(f"{where}.samples", block["samples"], until),
         "snapshots": snapshots,
         "equilibration": _rounded(block["equilibration"]["collisions_per_particle"]),
-        "keep_positions": bool(factors),
+        "keep_positions": bool(factors) or filmed,
     }
     runs = [
-        Run(scene=scene, realizations=chunk, **common)
+        Run(scene=scene, realizations=chunk, keep_motion=filmed and 0 in chunk, **common)
         for scene in _scenes(where, block["grid"], block["scene"])
         for chunk in _chunks(block["realizations"], block["realizations_per_job"])
     ]

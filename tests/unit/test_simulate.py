@@ -59,6 +59,14 @@ def test_snapshots_agree_with_the_samples(run, gas):
     assert np.all((position >= 0) & (position < [run.attrs["box_x"], run.attrs["box_y"]]))
 
 
+def test_the_motion_at_the_samples_is_that_of_the_snapshots_and_sums(run, gas):
+    moved = simulate(gas, 0.2, seed=3, snapshots=(0.05, 0.2), keep_motion=True, **QUIET)
+    assert "trajectory_velocity" not in run and "trajectory_collisions" not in run
+    np.testing.assert_allclose(moved["trajectory_velocity"][-1], run["velocity"].sel(snapshot=0.2), rtol=1e-6)
+    total = moved["trajectory_collisions"].sum("particle").values / 64
+    np.testing.assert_allclose(total, run["collisions_per_particle"].values, rtol=1e-12)
+
+
 def test_frequencies_count_both_partners(run):
     """The window of the last snapshot is the last tenth of the run."""
     frequency = run["collision_frequency"].sel(snapshot=0.2).values

@@ -239,11 +239,27 @@ def test_everything_that_a_run_is_made_of_is_in_its_address() -> None:
         "snapshots": (1.0,),
         "equilibration": 1.0,
         "keep_positions": True,
+        "keep_motion": True,
     }
     assert set(other) == {field.name for field in fields(Run)}
     for key, value in other.items():
         values = {name: getattr(base, name) for name in other} | {key: value}
         assert Run(**values).address != base.address, key
+
+
+def test_an_animation_films_the_first_realization_and_costs_the_others_nothing() -> None:
+    block = {"until": {"time": 1.0}, "realizations": 3, "distance_factors": [1.1]}
+    config = {"studies": {"large": block}, "animations": {"film": {"study": "large"}}}
+    alone, filmed = load({"studies": {"large": block}}, SCHEMA), load(config, SCHEMA)
+    before, after = (list(found.studies["large"].runs) for found in (alone, filmed))
+    assert [run.keep_motion for run in after] == [True, False, False]
+    assert [run.address for run in after[1:]] == [run.address for run in before[1:]]
+    assert after[0].address != before[0].address
+    assert after[0].state_address == before[0].state_address
+    assert filmed.animations["film"].run == after[0]
+    assert filmed.animations["film"].colour == "energy"
+    other = load(config | {"animations": {"film": {"study": "large", "colour": "initial_height"}}}, SCHEMA)
+    assert other.runs().keys() == filmed.runs().keys()
 
 
 def test_importing_is_light() -> None:

@@ -48,6 +48,11 @@ def tables():
     return [f"{OUTPUT}/{name}.csv" for name in (*TABLES, *(["claims"] if CLAIMS else []))] if STUDIES.all_wanted else []
 
 
+def animations():
+    """The animations that the configuration asks for: with all figures, all animations."""
+    return [f"{OUTPUT}/figures/{name}.mp4" for name in STUDIES.animations] if STUDIES.all_wanted else []
+
+
 def planned(dag):
     """The jobs that Snakemake wants to run."""
     return [

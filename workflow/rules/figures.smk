@@ -20,6 +20,23 @@ for name, needed in STUDIES.figures.items():
             "../scripts/draw.py"
 
 
+# One realization of a study as a film.
+rule animate:
+    input:
+        positions=lambda wildcards: f"{OUTPUT}/positions/{STUDIES.animations[wildcards.animation].run.address}.nc",
+    output:
+        report(f"{OUTPUT}/figures/{{animation}}.mp4", caption="../report/animation.rst", category="Animations"),
+    log:
+        f"{OUTPUT}/logs/animations/{{animation}}.log",
+    params:
+        colour=lambda wildcards: STUDIES.animations[wildcards.animation].colour,
+        drawing=digest.digest(["granugas.animation"]),
+    wildcard_constraints:
+        animation="|".join(STUDIES.animations),
+    script:
+        "../scripts/animate.py"
+
+
 # Tables, each from a file of workflow/tables.
 for name, needed in TABLES.items():
 

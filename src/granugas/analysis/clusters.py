@@ -40,15 +40,23 @@ class Clusters:
         return self.labels.shape[1] / self.counts
 
     @property
+    def weighted_sizes(self) -> NDArray[np.float64]:
+        """(k,) mean size of the cluster of a particle, sum M_i^2 / N: independent of I_c, unlike <M>."""
+        return np.array([np.square(sizes, dtype=float).sum() for sizes in self.sizes]) / self.labels.shape[1]
+
+    @property
     def largest_sizes(self) -> NDArray[np.int64]:
         """(k,) size of the largest cluster M_max."""
         return np.array([sizes.max() for sizes in self.sizes], dtype=np.int64)
 
     def __repr__(self) -> str:
-        rows = zip(self.distance_factors, self.counts, self.mean_sizes, self.largest_sizes, strict=True)
-        lines = [f"{factor:8g} {count:10d} {mean:10.4g} {largest:10d}" for factor, count, mean, largest in rows]
+        rows = zip(self.distance_factors, self.counts, self.mean_sizes, self.weighted_sizes, self.largest_sizes, strict=True)
+        lines = [
+            f"{factor:8g} {count:10d} {mean:10.4g} {of_one:10.4g} {largest:10d}"
+            for factor, count, mean, of_one, largest in rows
+        ]
         title = f"Clusters of {self.labels.shape[1]} particles"
-        return "\n".join([title, f"{'S_c':>8} {'I_c':>10} {'<M>':>10} {'M_max':>10}", *lines])
+        return "\n".join([title, f"{'S_c':>8} {'I_c':>10} {'<M>':>10} {'M_w':>10} {'M_max':>10}", *lines])
 
 
 def find_clusters(
@@ -63,7 +71,7 @@ def find_clusters(
         positions: (n, dim) in m, dim = 1, 2 or 3, anywhere; or the dataset of one run, see `clusters_of_run`, which
             brings its box and diameter.
         box: (dim,) sides of a periodic box in m, an infinite one for an open axis; None for open boundaries.
-        diameter: of all particles, or (n,) of each, in m.
+        diameter: of all particles, or (n,) of each, in m; 1 where it is not given, all lengths are in diameters then.
         distance_factors: S_c; they are sorted, all are done in one sweep.
 
     Returns:
@@ -118,7 +126,8 @@ def clusters_of_frames(
         box, diameter, distance_factors: as in `find_clusters`.
 
     Returns:
-        cluster_count I_c, mean_cluster_size <M> and largest_cluster_size M_max over (distance_factor, time), and
+        cluster_count I_c, mean_cluster_size <M>, weighted_cluster_size and largest_cluster_size M_max over
+        (distance_factor, time), and
         cluster_size_distribution over (distance_factor, time, cluster_size): the number of clusters in the bins of
         `size_bins`, sizes from cluster_size to below cluster_size_upper.
     """
@@ -129,13 +138,13 @@ def clusters_of_frames(
         bins = size_bins(len(positions))
         nobody = np.isnan(positions[:, 0])
         if nobody.all():
-            rows.append(np.full((len(factors), 3 + len(bins) - 1), np.nan))
+            rows.append(np.full((len(factors), 4 + len(bins) - 1), np.nan))
             continue
         if nobody.any():
             positions = positions[~nobody]
         found = _find(positions, box, diameter, factors)
         numbers = [_binned(sizes, bins) for sizes in found.sizes]
-        rows.append(np.column_stack([found.counts, found.mean_sizes, found.largest_sizes, numbers]))
+        rows.append(np.column_stack([found.counts, found.mean_sizes, found.weighted_sizes, found.largest_sizes, numbers]))
     if not rows:
         raise ValueError("frames: there is none")
     table = np.stack(rows, axis=1)
@@ -144,8 +153,9 @@ def clusters_of_frames(
         {
             "cluster_count": (dims, table[..., 0]),
             "mean_cluster_size": (dims, table[..., 1]),
-            "largest_cluster_size": (dims, table[..., 2]),
-            "cluster_size_distribution": ((*dims, "cluster_size"), table[..., 3:]),
+            "weighted_cluster_size": (dims, table[..., 2]),
+            "largest_cluster_size": (dims, table[..., 3]),
+            "cluster_size_distribution": ((*dims, "cluster_size"), table[..., 4:]),
         },
         coords={
             "distance_factor": factors,
@@ -170,9 +180,7 @@ def _find(
     positions: NDArray[np.float64], box: ArrayLike | None, diameter: ArrayLike | None, factors: NDArray[np.float64]
 ) -> Clusters:
     n, dim = positions.shape
-    if diameter is None:
-        raise ValueError("diameter: missing, give one in m or one for each particle")
-    diameters = np.asarray(diameter, dtype=float)
+    diameters = np.asarray(1.0 if diameter is None else diameter, dtype=float)
     if diameters.shape not in ((), (n,)) or not np.all((diameters > 0) & np.isfinite(diameters)):
         raise ValueError(f"diameter: allowed are a number > 0 m or {n} of them")
     sides = np.full(3, np.inf)

@@ -90,8 +90,8 @@ def read(path: str | Path) -> xr.Dataset:
 
 
 def read_by_name(paths: Iterable[str | Path]) -> dict[str, xr.Dataset]:
-    """The datasets of files by the files' names: the names of studies and experiments."""
-    return {Path(path).stem: read(path) for path in paths}
+    """The datasets of files by the files' names, those of studies and experiments: opened, read where they are used."""
+    return {Path(path).stem: xr.open_dataset(path, engine="netcdf4", decode_times=False) for path in paths}
 
 
 def load_study(path: str | Path) -> xr.Dataset:

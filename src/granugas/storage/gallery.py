@@ -27,7 +27,7 @@ def collect(results: str | Path) -> list[Path]:
         ValueError: no figure there, or more than 20 MB of them.
     """
     results = Path(results)
-    patterns = ("figures/*.png", "figures/*.pdf", "*.csv", "*.md")
+    patterns = ("figures/*.png", "figures/*.pdf", "figures/*.mp4", "*.csv", "*.md")
     files = sorted(path for pattern in patterns for path in results.glob(pattern))
     if not any(path.parent.name == "figures" for path in files):
         raise ValueError(f"{results}: no figures here; `make figures` builds them")

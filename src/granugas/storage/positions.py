@@ -1,7 +1,11 @@
-"""Positions at the sampling times in a file of their own: packed, so that clusters can be analysed again later."""
+"""Positions at the sampling times in a file of their own: packed, so that clusters can be analysed again later.
+
+With the motion of the particles beside them where an animation wants it.
+"""
 
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import netCDF4
 import numpy as np
@@ -13,16 +17,20 @@ from granugas.storage.variables import VARIABLES, describe
 LEVELS = 2**32 - 1
 """Steps of the longer side of the box; the code LEVELS itself means that there is no value."""
 
+MOTION = {"trajectory_velocity": "f4", "trajectory_collisions": "i4"}
+VELOCITY_BITS = 10
+"""Of a velocity's mantissa, one part in a thousand: enough for a picture, and half the bytes."""
+
 
 def write_positions(dataset: xr.Dataset, path: str | Path) -> None:
-    """Write `trajectory`, its coordinates and all global attributes, 4 bytes a number, whole or not at all.
+    """Write `trajectory`, its motion, coordinates and all global attributes, 4 bytes a number, whole or not at all.
 
     A position is rounded down to a multiple of L / (2^32 - 1), L the longer side of the box; CF readers find that as
     `scale_factor`. It is packed time step by time step, so that no second copy is in memory.
 
     Args:
         dataset: a run with `trajectory` (time, particle, axis) in m, in [0, L), NaN after its end, and the attributes
-            `box_x`, `box_y` in m.
+            `box_x`, `box_y` in m. `trajectory_velocity` and `trajectory_collisions` are written where it has them.
 
     Raises:
         KeyError: no trajectory, or no size of the box.
@@ -40,19 +48,16 @@ def write_positions(dataset: xr.Dataset, path: str | Path) -> None:
         with netCDF4.Dataset(temporary, "a") as file:
             for dim in {*trajectory.dims} - {*file.dimensions}:
                 file.createDimension(dim, trajectory.sizes[dim])
-            packed = file.createVariable(
-                "trajectory",
-                "u4",
-                trajectory.dims,
-                fill_value=LEVELS,
-                chunksizes=chunk_sizes(trajectory.shape),
-                zlib=True,
-                complevel=1,
-            )
+            packed = _variable(file, trajectory, "u4", fill_value=LEVELS)
             packed.set_auto_maskandscale(False)
             packed.setncatts(attributes)
             for i, codes in enumerate(_codes(trajectory, sides, scale)):
                 packed[i] = codes
+            for name in (name for name in MOTION if name in dataset):
+                rounding = {"significant_digits": VELOCITY_BITS, "quantize_mode": "BitRound"} if MOTION[name] == "f4" else {}
+                written = _variable(file, dataset[name], MOTION[name], **rounding)
+                written.setncatts(VARIABLES[name].attributes())
+                written[:] = dataset[name].values
 
 
 def read_positions(path: str | Path) -> xr.Dataset:
@@ -66,6 +71,12 @@ def read_positions(path: str | Path) -> xr.Dataset:
         FileNotFoundError: no such file.
     """
     return xr.open_dataset(path, engine="netcdf4", decode_times=False)
+
+
+def _variable(file: netCDF4.Dataset, data: xr.DataArray, kind: str, **options: Any) -> netCDF4.Variable:
+    """A compressed variable of an open file, still empty."""
+    chunks = chunk_sizes(data.shape)
+    return file.createVariable(data.name, kind, data.dims, chunksizes=chunks, zlib=True, complevel=1, **options)
 
 
 def _codes(trajectory: xr.DataArray, sides: np.ndarray, scale: float) -> Iterator[np.ndarray]:

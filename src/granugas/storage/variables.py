@@ -113,11 +113,14 @@ VARIABLES = {
     # clusters
     "cluster_count": Variable("1", "number of clusters, single particles included", "I_c", "B Eq. 6"),
     "mean_cluster_size": Variable("1", "mean number of particles in a cluster", "<M> = N/I_c", "B Eq. 7"),
+    "weighted_cluster_size": Variable("1", "mean size of the cluster that a particle is in", "sum M_i^2 / N"),
     "largest_cluster_size": Variable("1", "number of particles in the largest cluster", "M_max", "B section 5"),
     "cluster_size_distribution": Variable("1", "number of clusters in the bin of sizes", "n(M)", "B section 6"),
     # one value a particle
     "position": Variable("m", "position of a particle in the box", "r_i"),
     "trajectory": Variable("m", "position of a particle in the box at the sampling times", "r_i"),
+    "trajectory_velocity": Variable("m s-1", "velocity of a particle at the sampling times, rounded", "v_i"),
+    "trajectory_collisions": Variable("1", "collisions of a particle since t = 0 at the sampling times, -1 after the end"),
     "velocity": Variable("m s-1", "velocity of a particle in the frame of the centre of mass", "v_i"),
     "initial_y": Variable("m", "position of a particle along y at t = 0", "y_i(0)", "B Fig. 6"),
     "last_collision_time": Variable(

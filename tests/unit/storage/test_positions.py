@@ -77,3 +77,19 @@ def test_runs_without_positions_or_box_are_refused(tmp_path):
     del run.attrs["box_y"]
     with pytest.raises(KeyError, match="box_y"):
         write_positions(run, tmp_path / "positions.nc")
+
+
+def test_motion_is_kept_rounded(tmp_path):
+    rng = np.random.default_rng(1)
+    velocity = rng.normal(size=(5, 3000, 2)) * 10.0 ** -rng.integers(0, 30, (5, 3000, 1))
+    collisions = rng.integers(0, 10**6, (5, 3000)).astype(np.int32)
+    motion = {
+        "trajectory_velocity": (("time", "particle", "axis"), velocity.astype(np.float32)),
+        "trajectory_collisions": (("time", "particle"), collisions),
+    }
+    write_positions(run_of(rng.random((5, 3000, 2)) * 0.5, **motion), tmp_path / "positions.nc")
+    with read_positions(tmp_path / "positions.nc") as found:
+        np.testing.assert_allclose(found["trajectory_velocity"], velocity, rtol=1e-3)
+        assert np.any(abs(found["trajectory_velocity"] - velocity) > 1e-5 * abs(velocity))  # rounded, so smaller
+        np.testing.assert_array_equal(found["trajectory_collisions"], collisions)
+        assert found["trajectory_velocity"].attrs["units"] == "m s-1"

@@ -8,12 +8,13 @@ from granugas.storage.variables import VARIABLES, describe
 UNITS = {
     "1": "tau kinetic_energy kinetic_energy_x kinetic_energy_y collisions_per_particle elastic_collisions_per_particle "
     "elastic_collision_fraction elastic_particle_fraction elastic_energy_fraction reduced_pressure cluster_count "
-    "mean_cluster_size largest_cluster_size cluster_size_distribution collisional_stress_xx collisional_stress_xy "
+    "mean_cluster_size weighted_cluster_size largest_cluster_size cluster_size_distribution "
+    "collisional_stress_xx collisional_stress_xy "
     "collisional_stress_yx collisional_stress_yy cluster_size distance_factor realization",
     "s": "time sampling_time snapshot contact_time last_collision_time last_collision_interval wall_time cpu_time stop_time",
     "s-1": "collision_rate enskog_rate collision_frequency",
     "m": "position trajectory initial_y diameter box_x box_y",
-    "m s-1": "velocity velocity_half_width",
+    "m s-1": "velocity trajectory_velocity velocity_half_width",
 }
 
 
