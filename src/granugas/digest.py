@@ -28,6 +28,7 @@ EVENTS = (
     "granugas.sampling",
     "granugas.record",
     "granugas.progress",
+    "granugas.interruption",
     "granugas.simulate",
     "granugas.analysis.observables",
     "granugas.analysis.enskog",

@@ -1,13 +1,18 @@
 """What a job of the workflow does for a run: all its realizations, one after the other, as one dataset."""
 
-from collections.abc import Iterable
+import math
+from collections.abc import Iterable, Mapping
+from types import MappingProxyType
 
 import xarray as xr
 
 from granugas.equilibrate import equilibrate
+from granugas.interruption import Keeper
 from granugas.runs import Run
-from granugas.simulate import simulate
+from granugas.simulate import ENDLESS, simulate
 from granugas.storage.pooling import pool, realization_of
+
+NONE: Mapping[int, Keeper] = MappingProxyType({})
 
 
 def start_states(run: Run) -> xr.Dataset:
@@ -18,8 +23,20 @@ def start_states(run: Run) -> xr.Dataset:
     )
 
 
-def perform(run: Run, states: xr.Dataset) -> xr.Dataset:
-    """The dataset of a run from its start states, with `trajectory` (and its motion) where that is kept."""
+def perform(
+    run: Run, states: xr.Dataset, checkpoints: Mapping[int, Keeper] = NONE, max_seconds: float = math.inf
+) -> xr.Dataset:
+    """The dataset of a run from its start states, with `trajectory` (and its motion) where that is kept.
+
+    Args:
+        run: what is simulated.
+        states: of `start_states`.
+        checkpoints: of its realizations; those without one begin at t = 0.
+        max_seconds: of wall time, for each realization.
+
+    Raises:
+        Interrupted: by a signal, with a checkpoint written.
+    """
     return _together(
         simulate(
             run.scene,
@@ -31,6 +48,9 @@ def perform(run: Run, states: xr.Dataset) -> xr.Dataset:
             state=realization_of(states, k),
             keep_positions=run.keep_positions,
             keep_motion=run.keep_motion,
+            max_seconds=max_seconds,
+            max_collisions=run.max_collisions or ENDLESS,
+            checkpoint=checkpoints.get(k),
         )
         for k in run.realizations
     )

@@ -3,6 +3,7 @@
 import logging
 import math
 import time
+from collections.abc import Callable
 
 from tqdm import tqdm
 
@@ -27,13 +28,24 @@ class Progress:
         self._bar = tqdm(total=1.0, desc=what, disable=None if shown else True, bar_format="{l_bar}{bar}|{postfix}")
         self._started = self._logged = time.monotonic()
 
-    def follow(self, engine: Engine, until: float = math.inf, collisions: int = 2**62) -> int:
-        """Advance the engine up to a time (s) or by a number of collisions; why it stopped (see loop)."""
+    def follow(
+        self,
+        engine: Engine,
+        until: float = math.inf,
+        collisions: int = 2**62,
+        enough: Callable[[Engine], bool] = lambda engine: False,
+    ) -> int:
+        """Advance the engine up to a time (s) or by a number of collisions; why it stopped (see loop).
+
+        `enough` is asked after each slice that did not bring it there; where it says so the engine stays there (EVENTS).
+        """
         begin = engine.collisions
         why = EVENTS
         while why == EVENTS:
             why = engine.advance(until, collisions - (engine.collisions - begin), SLICE)
             self._tell(engine)
+            if why == EVENTS and enough(engine):
+                break
         return why
 
     def close(self) -> None:

@@ -1,6 +1,6 @@
 """What a run writes down on its way: one row a sample, all particles at the snapshots."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 import xarray as xr
@@ -55,34 +55,61 @@ class Record:
         self._contact_times = np.array(sorted(scene.contact_times))
         self.snapshots = np.array(sorted(snapshots), dtype=float)
         count, n = len(points.points) + 1, scene.n_particles
+        on_average = (ELASTIC_ON_AVERAGE,) if scene.restitution == 1 and self._contact_times.any() else ()
         self._time = np.full(count, np.nan)
         self._series = {name: np.full(count, np.nan) for name in SERIES}
-        on_average = (ELASTIC_ON_AVERAGE,) if scene.restitution == 1 and self._contact_times.any() else ()
         self._elastic = {name: np.full((count, len(self._contact_times)), np.nan) for name in (*ELASTIC, *on_average)}
         self._trajectory = {"trajectory": np.full((count, n, 2), np.nan)} if keep_positions else {}
         if keep_motion:
             self._trajectory["trajectory_velocity"] = np.full((count, n, 2), np.nan, np.float32)
             self._trajectory["trajectory_collisions"] = np.full((count, n), -1, np.int32)
+        several = len(self.snapshots)
         self._particles = {
-            "position": np.full((len(self.snapshots), n, 2), np.nan),
-            "velocity": np.full((len(self.snapshots), n, 2), np.nan),
-            "last_collision_time": np.full((len(self.snapshots), n), np.nan),
-            "last_collision_interval": np.full((len(self.snapshots), n), np.nan),
-            "collision_frequency": np.full((len(self.snapshots), n), np.nan),
+            "position": np.full((several, n, 2), np.nan),
+            "velocity": np.full((several, n, 2), np.nan),
+            "last_collision_time": np.full((several, n), np.nan),
+            "last_collision_interval": np.full((several, n), np.nan),
+            "collision_frequency": np.full((several, n), np.nan),
         }
+        self._windows = {"time": np.full(several, np.nan), "collisions": np.zeros((several, n), np.int64)}
         self._start, self._energy = start, float(kinetic_energy(start.velocity).sum())
         self._rate = float(enskog_rate(scene.area_fraction, self._energy / n, scene.diameter))
-        self._done, self._windows, self._so_far = 0, {}, np.zeros(len(self._contact_times))
-        self._collisions, self._elastic_collisions = 0, np.zeros(len(self._contact_times), np.int64)
+        self._done = 0
+        self._sums = {
+            "collisions": np.zeros((), np.int64),
+            "elastic_collisions": np.zeros(len(self._contact_times), np.int64),
+            "elastic_so_far": np.zeros(len(self._contact_times)),
+        }
         self._write(start)
+
+    def kept(self) -> dict[str, np.ndarray]:
+        """All that is written so far: what `go_on` takes."""
+        rows = {name: values[: self._done] for name, values in self._rows().items()}
+        return rows | self._of_snapshots() | {"done": np.array(self._done)} | self._sums
+
+    def go_on(self, kept: Mapping[str, np.ndarray]) -> None:
+        """Take over what another record had written; both must be of the same run."""
+        self._done = int(kept["done"])
+        for name, values in self._rows().items():
+            values[: self._done] = kept[name]
+        for name, values in (self._of_snapshots() | self._sums).items():
+            values[...] = kept[name]
+
+    def _rows(self) -> dict[str, np.ndarray]:
+        """What has a row a sample."""
+        return {"time": self._time} | self._series | self._elastic | self._trajectory
+
+    def _of_snapshots(self) -> dict[str, np.ndarray]:
+        windows = {f"window_{name}": values for name, values in self._windows.items()}
+        return windows | {f"snapshot_{name}": values for name, values in self._particles.items()}
 
     def sample(self, state: State, tally: Tally) -> None:
         """Write one row: the state at a sampling point, and what happened since the one before."""
         k, n = self._done, self._scene.n_particles
         dt = state.time - self._time[k - 1]
-        self._collisions += tally.collisions
-        self._elastic_collisions = self._elastic_collisions + tally.elastic
-        so_far = self._so_far
+        self._sums["collisions"] += tally.collisions
+        self._sums["elastic_collisions"] += tally.elastic
+        so_far = self._sums["elastic_so_far"].copy()
         self._write(state)
         if dt > 0:
             energy = kinetic_energy(state.velocity).sum() + tally.loss - tally.loss_time / dt  # mean over the interval
@@ -93,22 +120,23 @@ class Record:
                 for b, second in enumerate("xy"):
                     self._series[f"collisional_stress_{first}{second}"][k] = stress[a, b]
             if tally.elastic_time is not None:
-                self._elastic[ELASTIC_ON_AVERAGE][k] = (tally.elastic_time + self._so_far - so_far) / (n * dt)
+                since_before = tally.elastic_time + self._sums["elastic_so_far"] - so_far
+                self._elastic[ELASTIC_ON_AVERAGE][k] = since_before / (n * dt)
         if tally.collisions > 0:
             self._elastic["elastic_collision_fraction"][k] = tally.elastic / tally.collisions
 
     def open_window(self, k: int, state: State) -> None:
         """Begin to count the collisions for the collision frequency of snapshot k."""
-        self._windows[k] = state
+        self._windows["time"][k], self._windows["collisions"][k] = state.time, state.collisions
 
     def take_snapshot(self, k: int, state: State) -> None:
         """Keep all particles for snapshot k."""
-        window, keep = self._windows.pop(k), self._particles
+        began, counted, keep = self._windows["time"][k], self._windows["collisions"][k], self._particles
         keep["position"][k], keep["velocity"][k] = state.position, state.velocity
         keep["last_collision_time"][k] = state.last_collision_time
         keep["last_collision_interval"][k] = state.last_collision_interval
-        if state.time > window.time:  # at t = 0 there is none
-            keep["collision_frequency"][k] = (state.collisions - window.collisions) / (state.time - window.time)
+        if state.time > began:  # at t = 0 there is none
+            keep["collision_frequency"][k] = (state.collisions - counted) / (state.time - began)
 
     def dataset(self) -> xr.Dataset:
         """All that was written, without the attributes of the variables."""
@@ -149,14 +177,14 @@ class Record:
         self._series["tau"][k] = state.time * self._rate
         self._series["kinetic_energy"][k] = along_x + along_y
         self._series["kinetic_energy_x"][k], self._series["kinetic_energy_y"][k] = along_x, along_y
-        self._series["collisions_per_particle"][k] = 2 * self._collisions / n
-        self._elastic["elastic_collisions_per_particle"][k] = 2 * self._elastic_collisions / n
+        self._series["collisions_per_particle"][k] = 2 * self._sums["collisions"] / n
+        self._elastic["elastic_collisions_per_particle"][k] = 2 * self._sums["elastic_collisions"] / n
         instant = (state.last_collision_time, state.time, self._contact_times)
         self._elastic["elastic_particle_fraction"][k] = elastic_particle_fraction(*instant)
         self._elastic["elastic_energy_fraction"][k] = elastic_energy_fraction(state.velocity, *instant)
         if ELASTIC_ON_AVERAGE in self._elastic:  # how long the particles were elastic since their last collisions
             since = state.time - state.last_collision_time
-            self._so_far = np.minimum(since, self._contact_times[:, np.newaxis]).sum(axis=1)
+            self._sums["elastic_so_far"][:] = np.minimum(since, self._contact_times[:, np.newaxis]).sum(axis=1)
         now = {"trajectory": state.position, "trajectory_velocity": state.velocity, "trajectory_collisions": state.collisions}
         for name, values in self._trajectory.items():
             values[k] = now[name]

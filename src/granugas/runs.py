@@ -34,6 +34,7 @@ class Run:
         equilibration: collisions per particle before the start state is judged.
         keep_positions: whether positions at the sampling times are kept.
         keep_motion: whether velocities and numbers of collisions are kept with them.
+        max_collisions: of pairs, after which a run stops with what it has; None: no such limit.
     """
 
     scene: Scene
@@ -45,6 +46,7 @@ class Run:
     equilibration: float
     keep_positions: bool
     keep_motion: bool = False
+    max_collisions: int | None = None
 
     @property
     def address(self) -> str:
@@ -60,6 +62,7 @@ class Run:
             "keep_positions": self.keep_positions,
         }
         content |= {"keep_motion": True} if self.keep_motion else {}
+        content |= {"max_collisions": self.max_collisions} if self.max_collisions else {}
         kept = "_xy" if self.keep_positions else ""
         return f"{name}_{digest_of(self._stream | content)}{kept}"
 

@@ -4,14 +4,16 @@ import logging
 import math
 import time
 from collections import deque
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
+import numpy as np
 import xarray as xr
 
 from granugas.dynamics.events import loop
 from granugas.dynamics.events.engine import Engine
 from granugas.equilibrate import equilibrate, state_of
+from granugas.interruption import Keeper, watched
 from granugas.progress import Progress
 from granugas.record import FREQUENCY_WINDOW, Record
 from granugas.sampling import Limits, Samples, sampling_points
@@ -35,6 +37,9 @@ def simulate(
     state: xr.Dataset | None = None,
     keep_positions: bool = True,
     keep_motion: bool = False,
+    max_seconds: float = math.inf,
+    max_collisions: int = ENDLESS,
+    checkpoint: Keeper | None = None,
     progress: bool = True,
 ) -> xr.Dataset:
     """Simulate a scene from equilibrium at t = 0.
@@ -48,17 +53,22 @@ def simulate(
         state: a start state of `equilibrate`; made if it is not given.
         keep_positions: keep the positions at all sampling times, as `trajectory`, for the clusters.
         keep_motion: keep velocities and numbers of collisions with them, for an animation.
+        max_seconds: of wall time, after which the run stops with what it has.
+        max_collisions: of pairs, likewise.
+        checkpoint: where the run keeps its state from time to time, and goes on if it finds one there, bit for bit as if
+            nothing had happened.
         progress: show a bar on a terminal.
 
     Returns:
         The dataset of the run; storage/variables.py is the table of its variables. Where the run stopped early (inelastic
-        collapse, one of two limits), values after `stop_time` are NaN and `stop_reason` says why.
+        collapse, one of several limits), values after `stop_time` are NaN and `stop_reason` says why.
 
     Raises:
         ValueError: limits or samples that make no sense.
         SceneError: the disks do not fit.
+        Interrupted: SIGTERM or Ctrl-C came; the checkpoint is written.
     """
-    begun = (time.perf_counter(), time.process_time())
+    clock = Clock()
     limits = Limits.of(until)
     points = sampling_points(limits, samples)
     if scene.n_particles == 1 and limits.time is None:
@@ -67,21 +77,68 @@ def simulate(
         state = equilibrate(scene, seed=seed, realization=realization, progress=progress)
     engine = Engine(scene, state_of(state))
     record = Record(scene, engine.state(), points, snapshots, keep_positions, keep_motion)
+    stops = _stops(scene.n_particles, limits, points, record, max_collisions)
+    saved = checkpoint.load() if checkpoint is not None else None
+    if saved is not None:
+        engine = Engine.resume(scene, engine.box, _part(saved, "engine"))
+        record.go_on(_part(saved, "record"))
+        for stop, left in zip(stops, saved["stops_left"], strict=True):
+            while len(stop) > left:
+                stop.popleft()
+        clock.add(saved["spent"])
+        logger.info("goes on from a checkpoint at t = %g s", engine.time)
+
+    def kept() -> dict[str, np.ndarray]:
+        counts = {"stops_left": np.array([len(stop) for stop in stops]), "spent": clock.spent}
+        return _named("engine", engine.arrays) | _named("record", record.kept()) | counts
+
     bar = Progress(f"N = {scene.n_particles}, r = {scene.restitution:g}", limits.time or math.inf, shown=progress)
-    reason = _run(engine, bar, *_stops(scene.n_particles, limits, points, record))
+    with watched(checkpoint, kept, max_seconds) as enough:
+        reason = _run(engine, bar, *stops, enough)
     bar.close()
+    if reason in ("max_seconds", "max_collisions"):
+        logger.warning("%s reached at t = %g s: the run stops there, NaN after it", reason, engine.time)
     if reason == "inelastic_collapse":
         logger.warning(_collapse_message(engine))
     data = record.dataset()
     data.attrs |= {**state.attrs, **{k: list(v) if isinstance(v, tuple) else v for k, v in scene.as_dict().items()}}
     data["seed"], data["realization"] = seed, realization
     data["events"], data["stop_reason"], data["stop_time"] = engine.collisions, reason, engine.time
-    data["wall_time"], data["cpu_time"] = time.perf_counter() - begun[0], time.process_time() - begun[1]
+    data["wall_time"], data["cpu_time"] = clock.spent
     return describe(data)
 
 
-def _stops(n: int, limits: Limits, points: Samples, record: Record) -> tuple[deque, deque]:
-    """The stops by time (s) and by number of collisions, each in order: where, and what is done there (None: the end)."""
+class Clock:
+    """Wall time and processor time since it was made, and of earlier attempts."""
+
+    def __init__(self) -> None:
+        self._before = np.zeros(2)
+        self._begun = self._now()
+
+    @property
+    def spent(self) -> np.ndarray:
+        """(2,) in s."""
+        return self._before + self._now() - self._begun
+
+    def add(self, spent: np.ndarray) -> None:
+        """What an earlier attempt took."""
+        self._before = self._before + spent
+
+    @staticmethod
+    def _now() -> np.ndarray:
+        return np.array([time.perf_counter(), time.process_time()])
+
+
+def _named(prefix: str, arrays: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
+    return {f"{prefix}/{name}": values for name, values in arrays.items()}
+
+
+def _part(saved: Mapping[str, np.ndarray], prefix: str) -> dict[str, np.ndarray]:
+    return {name.removeprefix(f"{prefix}/"): values for name, values in saved.items() if name.startswith(f"{prefix}/")}
+
+
+def _stops(n: int, limits: Limits, points: Samples, record: Record, max_collisions: int) -> tuple[deque, deque]:
+    """The stops by time (s) and by number of collisions, each in order: where, and what is done there (text: the end)."""
     times, counts = [], []
     for k, snapshot in enumerate(record.snapshots):
         times.append((FREQUENCY_WINDOW * snapshot, lambda engine, k=k: record.open_window(k, engine.state())))
@@ -92,26 +149,30 @@ def _stops(n: int, limits: Limits, points: Samples, record: Record) -> tuple[deq
     else:
         counts += [(math.ceil(c * n / 2), sample) for c in points.points]
     if limits.time is not None:
-        times.append((limits.time, None))
+        times.append((limits.time, "time"))
     if limits.collisions_per_particle is not None:
-        counts.append((math.ceil(limits.collisions_per_particle * n / 2), None))
-    return deque(sorted(times, key=lambda stop: stop[0])), deque(counts)
+        counts.append((math.ceil(limits.collisions_per_particle * n / 2), "collisions_per_particle"))
+    counts.append((max_collisions, "max_collisions"))
+    return tuple(deque(sorted(stops, key=lambda stop: stop[0])) for stops in (times, counts))
 
 
-def _run(engine: Engine, bar: Progress, times: deque, counts: deque) -> str:
+def _run(engine: Engine, bar: Progress, times: deque, counts: deque, enough: Callable[[Engine], bool]) -> str:
     """Go from stop to stop until one of them is the end; returns the reason."""
     while True:
         until = float(times[0][0]) if times else math.inf
-        most = counts[0][0] if counts else ENDLESS
-        why = bar.follow(engine, until, most - engine.collisions)
+        why = bar.follow(engine, until, counts[0][0] - engine.collisions, enough)
         if why == loop.WATCH:
             return "inelastic_collapse"
+        if why == loop.EVENTS:
+            return "max_seconds"
         if why == loop.TIME and not times:
             return "no_more_events"
         act = (times if why == loop.TIME else counts).popleft()[1]
-        if act is None:
-            return "time" if why == loop.TIME else "collisions_per_particle"
+        if isinstance(act, str):
+            return act
         act(engine)
+        if enough(engine):
+            return "max_seconds"
 
 
 def _collapse_message(engine: Engine) -> str:

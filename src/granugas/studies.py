@@ -22,6 +22,19 @@ OVERVIEW = "overview"
 
 
 @dataclass(frozen=True)
+class Keeping:
+    """What no result depends on, as long as a run comes to its end.
+
+    Attributes:
+        checkpoint_seconds: wall time between two checkpoints of a run.
+        max_seconds: wall time after which a run stops with what it has; its checkpoint stays.
+    """
+
+    checkpoint_seconds: float
+    max_seconds: float
+
+
+@dataclass(frozen=True)
 class Study:
     """A grid of runs.
 
@@ -30,12 +43,14 @@ class Study:
         grid_keys: the keys that the study's grid names, the dimensions of its dataset.
         runs: each once, the realizations of a point one after the other.
         distance_factors: S_c of its cluster analysis, ascending; empty for none.
+        keeping: how its runs are carried out.
     """
 
     name: str
     grid_keys: tuple[str, ...]
     runs: tuple[Run, ...]
     distance_factors: tuple[float, ...]
+    keeping: Keeping
 
     def clusters(self) -> dict[str, Run]:
         """The runs by the addresses of their cluster analyses, which name the S_c too."""
@@ -91,6 +106,10 @@ class Studies:
     def states(self) -> dict[str, Run]:
         """For every start state one of the runs that begin with it."""
         return {run.state_address: run for run in self.runs().values()}
+
+    def keeping(self) -> dict[str, Keeping]:
+        """How each run is carried out, by its address; of studies that share one, the last says so."""
+        return {run.address: study.keeping for study in self.studies.values() for run in study.runs}
 
     def clusters(self) -> dict[str, tuple[Run, tuple[float, ...]]]:
         """Every cluster analysis by its address: the run and its S_c."""
@@ -185,13 +204,15 @@ def _study(name: str, block: Mapping[str, Any], seed: int, filmed: bool) -> Stud
         "snapshots": snapshots,
         "equilibration": _rounded(block["equilibration"]["collisions_per_particle"]),
         "keep_positions": bool(factors) or filmed,
+        "max_collisions": block.get("max_collisions"),
     }
     runs = [
         Run(scene=scene, realizations=chunk, keep_motion=filmed and 0 in chunk, **common)
         for scene in _scenes(where, block["grid"], block["scene"])
         for chunk in _chunks(block["realizations"], block["realizations_per_job"])
     ]
-    return Study(name, tuple(block["grid"]), tuple(runs), factors)
+    keeping = Keeping(block["checkpoint_seconds"], block.get("max_seconds", math.inf))
+    return Study(name, tuple(block["grid"]), tuple(runs), factors, keeping)
 
 
 def _chunks(realizations: int, size: int) -> Iterator[tuple[int, ...]]:

@@ -119,6 +119,7 @@ def test_what_decides_a_run_alone_leaves_the_start_state(changes: dict) -> None:
         {"grid": {"contact_time": 1.00000000000001e-5}},
         {"scene": {"dimensions": 2, "boundary": "periodic", "aspect_ratio": 1}},
         {"checkpoint_seconds": 5},
+        {"max_seconds": 100},
         {"samples": {"spacing": "log", "count": 100, "axis": "time"}},
     ],
 )
@@ -240,6 +241,7 @@ def test_everything_that_a_run_is_made_of_is_in_its_address() -> None:
         "equilibration": 1.0,
         "keep_positions": True,
         "keep_motion": True,
+        "max_collisions": 1000,
     }
     assert set(other) == {field.name for field in fields(Run)}
     for key, value in other.items():

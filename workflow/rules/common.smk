@@ -23,7 +23,7 @@ except ConfigError as error:
     sys.exit(f"configuration: {error}")
 
 OUTPUT = STUDIES.output
-STATES, RUNS, CLUSTERS = STUDIES.states(), STUDIES.runs(), STUDIES.clusters()
+STATES, RUNS, CLUSTERS, KEEPING = STUDIES.states(), STUDIES.runs(), STUDIES.clusters(), STUDIES.keeping()
 DRAWINGS = studies.experiments_in(HERE / "workflow/figures")
 TABLES, CLAIMS = (STUDIES.possible(studies.figures_in(HERE / f"workflow/{kind}")) for kind in ("tables", "claims"))
 MEASURED = {kind: studies.experiments_in(HERE / f"workflow/{kind}") for kind in ("tables", "claims")}

@@ -25,6 +25,8 @@ rule simulate:
     params:
         run=lambda wildcards: RUNS[wildcards.run],
         physics=PHYSICS,
+        keeping=lambda wildcards: KEEPING[wildcards.run],
+        checkpoints=f"{OUTPUT}/checkpoints",
     wildcard_constraints:
         run=".+_xy",
     priority: lambda wildcards: RUNS[wildcards.run].cost

@@ -6,11 +6,16 @@ with logged(snakemake.log[0]):
     from dataclasses import asdict
 
     from granugas.execute import perform
+    from granugas.storage.checkpoint import checkpoints_of
     from granugas.storage.dataset import read, write, write_positions
 
-    run, output = snakemake.params.run, snakemake.output
-    data = perform(run, read(snakemake.input.state))
+    run, output, keeping = snakemake.params.run, snakemake.output, snakemake.params.keeping
+    checkpoints = checkpoints_of(run, snakemake.params.checkpoints, snakemake.params.physics, keeping.checkpoint_seconds)
+    data = perform(run, read(snakemake.input.state), checkpoints, keeping.max_seconds)
     if run.keep_positions:
         write_positions(data, output.positions)
     of_the_run = data.drop_vars([name for name in data if name.startswith("trajectory")])
     write(of_the_run, output.run, parameters=asdict(run))
+    if "max_seconds" not in data["stop_reason"].values:
+        for checkpoint in checkpoints.values():
+            checkpoint.remove()
