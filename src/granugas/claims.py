@@ -24,6 +24,9 @@ MANY = 9
 """More numbers than these are told by their extremes."""
 
 HOLDS, FAILS, SLIP, NOT_MEASURED = "holds", "does not hold", "slip of the print", "not measured"
+PAPERS = {"A": "Luding & McNamara 1998", "B": "Luding & Herrmann 1999"}
+"""By the letter with which the ids of their claims begin."""
+
 COLUMNS = ("id", "section", "figure", "claim", "quantity", "expected", "measured", "error", "tolerance", "verdict", "remark")
 
 
@@ -212,14 +215,17 @@ def judge(claims: Iterable[Claim], data: Data) -> pd.DataFrame:
 def page(table: pd.DataFrame) -> str:
     """The table as a Markdown page: the verdicts counted, what does not hold and why, then all claims by section."""
     kinds = table["verdict"].where(~table["verdict"].str.startswith(HOLDS + " within"), HOLDS + " within ...")
-    lines = ["# Claims", "", f"{len(table)} claims:", ""]
-    lines += [f"- {kind}: {count}" for kind, count in kinds.value_counts().items()]
+    paper = table["id"].str[0]
+    lines = ["# Claims", "", f"| {len(table)} claims | " + " | ".join(PAPERS[name] for name in paper.unique()) + " |"]
+    lines += ["|---" * (1 + paper.nunique()) + "|"]
+    for kind, counts in pd.crosstab(kinds, paper).iterrows():
+        lines.append(f"| {kind} | " + " | ".join(str(counts[name]) for name in paper.unique()) + " |")
     open_ones = table[kinds.isin([FAILS, SLIP])]
     if len(open_ones):
         lines += ["", "## What does not hold", ""]
         lines += [f"- **{row.id}** ({row.verdict}): {row.claim} {row.remark}" for row in open_ones.itertuples()]
-    for section, rows in table.groupby("section", sort=False):
-        lines += ["", f"## Section {section}", ""]
+    for (name, section), rows in table.groupby([paper, "section"], sort=False):
+        lines += ["", f"## {PAPERS[name]}, section {section}", ""]
         lines += ["| id | claim | quantity | expected | measured | verdict | figure |", "|---|---|---|---|---|---|---|"]
         for row in rows.itertuples():
             measured = f"{row.measured} ± {row.error}" if row.error else row.measured

@@ -22,6 +22,8 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator, NullFormatter
 from numpy.typing import NDArray
 
+from granugas.analysis.comparison import interpolated
+from granugas.analysis.growth import growth_regime, local_exponent
 from granugas.analysis.statistics import PowerLaw, mean_and_error
 from granugas.analysis.windows import equal_windows, middles, ratio_of_changes, snapshot_means
 
@@ -354,3 +356,72 @@ def text_table(cells: Sequence[Sequence[str]], widths: Sequence[float], notes: S
     for k, text in enumerate(notes):
         axes.text(0.05, line * (len(cells) + 0.7 + 0.8 * k), text, va="center", fontsize="small")
     return figure
+
+
+def run_and_others(axes: Axes, x: xr.DataArray, y: xr.DataArray, **line: Any) -> Line2D:
+    """The first realization as a line, and the range of all the others as a band where all of them are.
+
+    Args:
+        axes: with their scales set, logarithmic ones where realizations have each their own x.
+        x, y: over `realization` and `time`; x = 0 is left out.
+        line: how the line is drawn.
+    """
+    x, y = (values.transpose("realization", "time").values for values in (x, y))
+    shown = (x > 0).all(axis=0) & ~np.isnan(y).any(axis=0)
+    x, y = x[:, shown], y[:, shown]
+    (drawn,) = axes.plot(x[0], y[0], **line)
+    if len(x) > 1:
+        alike = np.allclose(x, x[0])
+        at = x[0] if alike else np.geomspace(x[1:, 0].max(), x[1:, -1].min(), x.shape[1])
+        others = y[1:] if alike else interpolated(x[1:], y[1:], at)
+        axes.fill_between(at, others.min(axis=0), others.max(axis=0), color=drawn.get_color(), alpha=0.12, linewidth=0.4)
+    return drawn
+
+
+def cooling_views(points: Sequence[tuple[str, xr.Dataset]], title: str, axis_of_collisions: str) -> tuple[Figure, list[Axes]]:
+    """(a) K against t, (b) K, (c) t and (d) (K_x - K_z)/K against C/N (B Figs. 1 and 2), and the panels for theories.
+
+    Args:
+        points: a label and the runs of each, in the order of `shades`.
+        title: of the legend.
+        axis_of_collisions: "linear" or "log", of C/N in (b) and (c); it is logarithmic in (d).
+    """
+    figure = Figure(figsize=(PAGE, 5.0))
+    panels = energy, spent, clock, shear = figure.subplots(2, 2).ravel()
+    energy.set(xscale="log", yscale="log", xlabel="$t$ (s)", ylabel="$K$")
+    spent.set(xscale=axis_of_collisions, yscale="log", xlabel="$C/N$", ylabel="$K$")
+    clock.set(xscale=axis_of_collisions, yscale="log", xlabel="$C/N$", ylabel="$t$ (s)")
+    shear.set(xscale="log", xlabel="$C/N$", ylabel="$(K_x - K_z)/K$", ylim=(-1.05, 1.05))
+    shear.axhline(0, color="0.6", linewidth=0.6, zorder=0)
+    for place, ((label, runs), colour, marker) in enumerate(zip(points, shades(len(points)), cycle(MARKERS), strict=False)):
+        look = {"color": colour, "linewidth": 1.0, "marker": marker, "markerfacecolor": "white", "markeredgewidth": 0.7}
+        look |= {"markevery": (5 * place, 40), "label": label}
+        t, count, total = (runs[name] for name in (_clock(runs), "collisions_per_particle", "kinetic_energy"))
+        difference = (runs["kinetic_energy_x"] - runs["kinetic_energy_y"]) / total
+        for axes, x, y in ((energy, t, total), (spent, count, total), (clock, count, t), (shear, count, difference)):
+            run_and_others(axes, *xr.broadcast(x, y), **look)
+    energy.legend(title=title, loc="lower left")
+    mark_panels(*panels)
+    return figure, list(panels)
+
+
+def _clock(runs: xr.Dataset) -> str:
+    return "sampling_time" if "sampling_time" in runs else "time"
+
+
+def mark_growth(runs: xr.Dataset, *panels: Axes, distance_factor: float = 1.1) -> None:
+    """The growth regime of <M> (`growth_regime` of the geometric mean over realizations), lightly shaded.
+
+    Args:
+        runs: mean_cluster_size over `realization`, `time` and `distance_factor`.
+        panels: with time as abscissa and everything drawn.
+        distance_factor: S_c; the nearest that there is.
+    """
+    grown = runs.sel(distance_factor=distance_factor, method="nearest").isel(time=slice(1, None))
+    exponents = local_exponent(grown["time"], grown["mean_cluster_size"].transpose("realization", "time"))
+    begin, end = growth_regime(grown["time"], exponents.mean(axis=0))
+    for axes in panels:
+        limits = axes.get_xlim()
+        if not np.isnan(begin):
+            axes.axvspan(begin, limits[1] if np.isnan(end) else end, color="0.93", linewidth=0, zorder=-2)
+        axes.set_xlim(limits)

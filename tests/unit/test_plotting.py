@@ -40,6 +40,8 @@ def study(realizations=2, clusters=False, **grid):
         {
             "tau": (dims, tau),
             "kinetic_energy": (dims, energy),
+            "kinetic_energy_x": (dims, 0.6 * energy),
+            "kinetic_energy_y": (dims, 0.4 * energy),
             "collisions_per_particle": (dims, collisions),
             "elastic_collisions_per_particle": (dims, 0.01 * collisions),
             "elastic_particle_fraction": (dims, np.full(tau.shape, 0.004)),
@@ -47,6 +49,8 @@ def study(realizations=2, clusters=False, **grid):
             "position": ((*at, "particle", "axis"), rng.random((*shape, 2, 100, 2))),
             "velocity": ((*at, "particle", "axis"), rng.normal(0, 0.01, (*shape, 2, 100, 2))),
             "collision_frequency": ((*at, "particle"), rng.exponential(500, (*shape, 2, 100))),
+            "last_collision_interval": ((*at, "particle"), rng.exponential(1e-4, (*shape, 2, 100))),
+            "initial_y": ((*dims[:-1], "particle"), rng.random((*shape, 100))),
             **{name: (dims[:-1], np.full(shape, value)) for name, value in once.items()},
         },
         coords=grid | {"time": time, "realization": np.arange(realizations), "snapshot": [0.1, 5.0]},
@@ -57,8 +61,12 @@ def study(realizations=2, clusters=False, **grid):
         sizes = (1 + time) ** 0.3 * factors[:, np.newaxis] * np.exp(0.02 * rng.normal(size=(*shape, 1, 1)))
         over = (*dims[:-1], "distance_factor", "time")
         data = data.assign(
-            mean_cluster_size=(over, sizes), cluster_count=(over, 100 / sizes), largest_cluster_size=(over, sizes**2)
-        ).assign_coords(distance_factor=factors)
+            mean_cluster_size=(over, sizes),
+            cluster_count=(over, 100 / sizes),
+            weighted_cluster_size=(over, sizes**1.5),
+            largest_cluster_size=(over, sizes**2),
+            cluster_size_distribution=((*over, "cluster_size"), 100 * np.exp(-np.arange(1, 5) / sizes[..., np.newaxis])),
+        ).assign_coords(distance_factor=factors, cluster_size=[1, 2, 3, 4], cluster_size_upper=("cluster_size", [2, 3, 4, 6]))
     return data
 
 
@@ -344,3 +352,88 @@ def test_text_tables_keep_inside_their_columns():
     middles = [(box.y0 + box.y1) / 2 for box in boxes]
     rules = [line.get_ydata()[0] for line in axes.lines]
     assert rules[0] < middles[1] < rules[1] < middles[4] < middles[7] < rules[2] < middles[-1] < axes.get_ylim()[0]
+
+
+@pytest.mark.parametrize(("scale", "shift"), [("log", [1.0, 2.0, 5.0]), ("linear", [1.0, 1.0, 1.0])])
+def test_run_and_others(scale, shift):
+    """The band is where all but the first are: at common x, though each has its own."""
+    axes = Figure().add_subplot(xscale="log", yscale=scale)
+    dims, shift = ("realization", "time"), np.array(shift)[:, np.newaxis]
+    x = xr.DataArray(np.array([0, 1, 10, 100.0]) * shift, dims=dims)
+    y = xr.DataArray(np.array([[8.0], [1.0], [3.0]]) * np.array([7, 1, 1e-2, 1e-4]) * shift**-2, dims=dims)
+    line = plotting.run_and_others(axes, x, y, color="C1")
+    np.testing.assert_allclose(line.get_data(), [[1, 10, 100], [8, 8e-2, 8e-4]])
+    place, edge = axes.collections[0].get_paths()[0].vertices.T
+    last = 100 * shift[1:].min()
+    assert (place.min(), place.max()) == pytest.approx((shift[1:].max(), last))
+    assert (edge[place < place.min() * 1.01].min(), edge[place < place.min() * 1.01].max()) == pytest.approx(
+        (place.min() ** -2, 3 * place.min() ** -2)
+    )
+    single = plotting.run_and_others(axes, x[:1], y[:1])
+    assert len(axes.collections) == 1 and len(single.get_xdata()) == 3
+
+
+@pytest.mark.parametrize(("name", "grid", "scale"), [("1", "restitution", "linear"), ("2", "contact_time", "log")])
+def test_four_views_of_small_systems(name, grid, scale):
+    """K, C/N, t and (Kx - Kz)/K against each other, with the theories of each r."""
+    figure_file = runpy.run_path(str(FIGURES / f"cluster1999_fig{name}.py"))
+    values = {"restitution": [0.2, 0.9], "contact_time": [1e-8, 1e-3]}[grid]
+    data = study(3, **{grid: values})
+    figure = figure_file["draw"](dict.fromkeys(figure_file["STUDIES"], data))
+    energy, spent, clock, shear = figure.axes
+    first = data.isel({grid: 1, "realization": 0}).squeeze().isel(time=slice(1, None))
+    for axes, x, y in ((energy, "time", "kinetic_energy"), (clock, "collisions_per_particle", "time")):
+        np.testing.assert_allclose(axes.lines[0].get_data(), [first[x], first[y]])
+    np.testing.assert_allclose(spent.lines[0].get_data(), [first["collisions_per_particle"], first["kinetic_energy"]])
+    np.testing.assert_allclose(shear.lines[1].get_ydata(), 0.2)
+    assert (spent.get_xscale(), clock.get_xscale(), shear.get_yscale()) == (scale, scale, "linear")
+    assert [len(axes.collections) for axes in figure.axes] == [2, 2, 2, 2]
+    assert texts(figure)[0] == {"1": "$r$", "2": "$t_c$ (s)"}[name]
+    dashed = [line for line in energy.lines if line.get_linestyle() == "--"]
+    r = {"1": [0.9, 0.2], "2": [0.4]}[name]
+    assert len(dashed) == len(r)
+    for line, one in zip(dashed, r, strict=True):
+        t, drawn = line.get_data()
+        np.testing.assert_allclose(drawn, theory.homogeneous_cooling(445 * t, one))
+    for line, one in zip([line for line in spent.lines if line.get_linestyle() == "--"], r, strict=True):
+        count, drawn = line.get_data()
+        np.testing.assert_allclose(drawn, theory.energy_after_collisions(count, one))
+
+
+def test_the_growth_regime_is_shaded_where_the_mean_size_grows():
+    time = np.concatenate([[0], np.geomspace(1e-2, 400, 120)])
+    sizes = np.stack([np.clip(time, 1, end) ** 0.3 for end in (40, 20)])
+    runs = xr.Dataset(
+        {"mean_cluster_size": (("distance_factor", "realization", "time"), np.stack([sizes[:1], sizes[1:]]))},
+        {"distance_factor": [1.09, 1.4], "time": time},
+    )
+    axes = Figure().add_subplot(xscale="log")
+    axes.plot([2, 5], [1, 2])
+    limits = axes.get_xlim()
+    plotting.mark_growth(runs, axes)
+    (area,) = axes.patches
+    assert (area.get_x(), area.get_x() + area.get_width()) == pytest.approx((1, 40), rel=0.05)
+    assert axes.get_xlim() == limits
+    plotting.mark_growth(runs.isel(time=slice(0, 80)), axes)  # does not end
+    assert axes.patches[-1].get_x() + axes.patches[-1].get_width() == pytest.approx(limits[1])
+
+
+def test_growth_shows_exponents_and_their_intervals():
+    draw = runpy.run_path(str(FIGURES / "cluster1999_growth.py"))["draw"]
+    data = study(4, clusters=True)
+    for name in ("mean_cluster_size", "largest_cluster_size"):
+        data[name] = data[name] * np.maximum(data["time"], 1) ** (0.01 * data["realization"] - 0.015)
+    local, against, mean, largest, *_ = draw({"cluster1999_large": data}).axes
+    sizes = data["mean_cluster_size"].squeeze()
+    t = data["time"].values[1:]
+    (curve,) = (line for line in local.lines if line.get_label() == "$1.4$")
+    x, y = curve.get_data()
+    np.testing.assert_allclose(y, 0.3 * x / (1 + x), atol=0.02)  # <M> ~ (1 + t)^.3
+    fits = [fit_power_law(t, sizes.sel(distance_factor=s)[:, 1:], (1, 40)) for s in data["distance_factor"].values]
+    points, _, (bars,) = against.containers[0]
+    np.testing.assert_allclose(points.get_ydata().astype(float), [fit.exponent for fit in fits])
+    np.testing.assert_allclose([bar[:, 1] for bar in bars.get_segments()], [fit.interval for fit in fits])
+    np.testing.assert_allclose(against.containers[-1][0].get_ydata().astype(float), 2 * fits[0].exponent, rtol=1e-3)
+    assert [axes.lines[0].get_xydata().tolist() for axes in (mean, largest)] == [[[1, 40]]] * 2
+    alone = texts(draw({"cluster1999_large": study(1, clusters=True)}))
+    assert "one run, no interval" in alone

@@ -30,7 +30,7 @@ rule animate:
         f"{OUTPUT}/logs/animations/{{animation}}.log",
     params:
         colour=lambda wildcards: STUDIES.animations[wildcards.animation].colour,
-        drawing=digest.digest(["granugas.animation"]),
+        drawing=digest.digest(["granugas.animation", "granugas.snapshots"]),
     wildcard_constraints:
         animation="|".join(STUDIES.animations),
     script:

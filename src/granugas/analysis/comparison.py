@@ -25,3 +25,21 @@ def onset(x: ArrayLike, deviation: ArrayLike, threshold: float) -> float:
     """The first x at which a deviation is above the threshold; the last x where it never is."""
     above = np.flatnonzero(np.asarray(deviation) > threshold)
     return float(np.asarray(x)[above[0] if len(above) else -1])
+
+
+def interpolated(x: ArrayLike, y: ArrayLike, at: ArrayLike) -> Numbers:
+    """(n, k) Each of n curves at the same places, by straight lines between its points on logarithmic axes.
+
+    Runs that end by collisions have each their own times: here their energies are brought to common ones.
+
+    Args:
+        x: (n, m), ascending and positive; a curve ends at its first NaN.
+        y: (n, m), positive.
+        at: (k,), positive; NaN comes back where a curve does not reach.
+    """
+    at = np.log(at)
+    curves = []
+    for abscissa, ordinate in zip(np.log(x), np.log(y), strict=True):
+        there = ~np.isnan(abscissa)
+        curves.append(np.interp(at, abscissa[there], ordinate[there], left=np.nan, right=np.nan))
+    return np.exp(curves)

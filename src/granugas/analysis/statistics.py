@@ -11,8 +11,9 @@ Numbers = NDArray[np.float64]
 CONFIDENCE = 0.95
 """Level of every interval."""
 
+NORMAL = 1.959964
 STUDENT_T = (12.7062, 4.3027, 3.1824, 2.7764, 2.5706, 2.4469, 2.3646, 2.3060, 2.2622)
-"""Two-sided 95 % points of Student's t for 1, 2 ... 9 degrees of freedom: up to ten realizations."""
+"""Two-sided 95 % points: of the normal distribution, and of Student's t for 1, 2 ... 9 degrees of freedom."""
 
 RESAMPLES = 4000
 """Bootstrap samples; the ends of an interval are then stable to some per cent of its width."""
@@ -65,36 +66,48 @@ def mean_and_error(values: ArrayLike) -> tuple[Numbers, Numbers]:
         return mean, np.sqrt(variance / n)
 
 
+def student_t(freedom: int) -> float:
+    """Two-sided 95 % point of Student's t; above nine degrees of freedom by its expansion, good to 2e-3."""
+    if freedom <= len(STUDENT_T):
+        return STUDENT_T[freedom - 1]
+    return NORMAL + (NORMAL**3 + NORMAL) / (4 * freedom) + (5 * NORMAL**5 + 16 * NORMAL**3 + 3 * NORMAL) / (96 * freedom**2)
+
+
 def bootstrap_interval(
     values: ArrayLike, statistic: Callable[[Numbers], float] = np.mean, seed: int = 1998
 ) -> tuple[float, float]:
-    """95 % percentile interval of a statistic, from realizations drawn again with replacement.
+    """95 % interval of a statistic, from realizations drawn again with replacement.
+
+    The percentiles of n realizations drawn again are too near to each other: a draw scatters by (n - 1)/n too little, and
+    its scatter is itself an estimate. So both are moved away from the statistic by sqrt(n/(n - 1)) t/1.96 with Student's t
+    of n - 1 degrees of freedom. For the mean of normal values that covers 94 to 95 % from two realizations on, where the
+    percentiles as they are cover 52 % of two, 81 % of four and 90 % of ten.
 
     Args:
-        values: (n, ...), realizations first. With ten of them or fewer the interval is too narrow.
-        statistic: of an array like values.
+        values: (n, ...), realizations first.
+        statistic: of an array like values, in which the order of realizations does not count.
         seed: of the draws.
+
+    Returns:
+        low and high; NaN for one realization, and where the statistic of some draw is NaN.
     """
     values = np.asarray(values, dtype=float)
-    draws = np.random.default_rng(seed).integers(len(values), size=(RESAMPLES, len(values)))
-    low, high = np.quantile([statistic(values[draw]) for draw in draws], [(1 - CONFIDENCE) / 2, (1 + CONFIDENCE) / 2])
-    return float(low), float(high)
-
-
-def t_interval(values: ArrayLike) -> tuple[float, float]:
-    """95 % interval of the mean of two to ten independent, normal values (n,); NaN for one."""
-    values = np.asarray(values, dtype=float)
-    if len(values) < 2:
+    n = len(values)
+    if n < 2:
         return np.nan, np.nan
-    half_width = STUDENT_T[len(values) - 2] * values.std(ddof=1) / np.sqrt(len(values))
-    return float(values.mean() - half_width), float(values.mean() + half_width)
+    draws = np.random.default_rng(seed).integers(n, size=(RESAMPLES, n))
+    different, which = np.unique(np.sort(draws, axis=1), axis=0, return_inverse=True)  # of six realizations there are 462
+    drawn = np.array([statistic(values[draw]) for draw in different])[which.ravel()]
+    ends = np.quantile(drawn, [(1 - CONFIDENCE) / 2, (1 + CONFIDENCE) / 2])
+    found = float(statistic(values))
+    low, high = found + np.sqrt(n / (n - 1)) * student_t(n - 1) / NORMAL * (ends - found)
+    return float(low), float(high)
 
 
 def fit_power_law(x: ArrayLike, y: ArrayLike, window: tuple[float, float]) -> PowerLaw:
     """Least squares of ln y against ln x in a window, for each realization by itself.
 
-    The interval comes from the spread of the realizations' exponents: Student's t for two to ten of them, honest but
-    wide if they are two; a bootstrap over realizations for more.
+    The interval comes from the spread of the realizations' exponents (`bootstrap_interval`): honest, but wide if they are two.
 
     Args:
         x: (m,), ascending and positive.
@@ -112,8 +125,9 @@ def fit_power_law(x: ArrayLike, y: ArrayLike, window: tuple[float, float]) -> Po
     if not len(y):
         raise ValueError(f"window = {window}: no realization has positive values throughout")
     exponents, offsets = np.polyfit(np.log(x[inside]), np.log(y).T, 1)
-    interval = t_interval(exponents) if len(exponents) <= len(STUDENT_T) + 1 else bootstrap_interval(exponents)
-    return PowerLaw(float(exponents.mean()), interval, float(np.exp(offsets.mean())), tuple(window), exponents)
+    return PowerLaw(
+        float(exponents.mean()), bootstrap_interval(exponents), float(np.exp(offsets.mean())), tuple(window), exponents
+    )
 
 
 def jackknife(statistic: Callable[..., ArrayLike], *groups: ArrayLike) -> tuple[Numbers, Numbers]:

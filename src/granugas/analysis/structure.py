@@ -47,6 +47,38 @@ def strongest_wavelength(positions: ArrayLike, box: ArrayLike, parts: int) -> fl
     return 1 / float(1 + strength[1:].argmax())
 
 
+def structure_factor(positions: ArrayLike, box: ArrayLike, parts: int) -> tuple[Numbers, Numbers]:
+    """S(k) = |sum_i exp(i k r_i)|^2 / N, averaged over the directions of k: 1 for points at random.
+
+    Args:
+        positions: (n, 2) in m.
+        box: sides in m.
+        parts: cells along each side; what is shorter than four of them is left out, where the cells would be seen.
+
+    Returns:
+        k = 2 pi j / sqrt(V) in 1/m for the shells j = 1, 2 ... parts/4 (rounded), and S(k); NaN where a shell of a long box
+        has no mode.
+    """
+    power, wave_number = _spectrum(positions, box, parts)
+    unit = np.sqrt(np.prod(box))
+    shell = np.rint(wave_number * unit).astype(int).ravel()
+    modes = np.bincount(shell)
+    strength = np.bincount(shell, power.ravel()) * len(positions) / parts**4
+    with np.errstate(invalid="ignore", divide="ignore"):
+        return 2 * np.pi / unit * np.arange(1, parts // 4 + 1), (strength / modes)[1 : parts // 4 + 1]
+
+
+def mean_wavelength(k: Numbers, strength: Numbers, shortest: float) -> float:
+    """2 pi / <k>, <k> = sum k S(k) / sum S(k) over wavelengths of at least `shortest`: the length of the structure factor.
+
+    Args:
+        k, strength: as `structure_factor` returns them, lengths in any unit.
+        shortest: what is shorter is the order of neighbours, not of clusters.
+    """
+    kept = (k <= 2 * np.pi / shortest * (1 + 1e-9)) & ~np.isnan(strength)
+    return float(2 * np.pi * strength[kept].sum() / (k * strength)[kept].sum())
+
+
 def _cells(positions: ArrayLike, box: ArrayLike, parts: int) -> NDArray[np.int64]:
     """(n, 2) column and row of the cell of each particle, periodic images included."""
     return np.floor(np.asarray(positions) / np.asarray(box) * parts).astype(int) % parts

@@ -165,9 +165,46 @@ def test_result_object():
     np.testing.assert_array_equal(found.sizes[1], [2, 2, 1])
     np.testing.assert_array_equal(found.counts, [4, 3])
     np.testing.assert_allclose(found.mean_sizes, [5 / 4, 5 / 3])
+    np.testing.assert_allclose(found.weighted_sizes, [7 / 5, 9 / 5])
     np.testing.assert_array_equal(found.largest_sizes, [2, 2])
     assert repr(found).splitlines()[0] == "Clusters of 5 particles"
-    assert repr(found).splitlines()[-1].split() == ["1.2", "3", "1.667", "2"]
+    assert repr(found).splitlines()[-1].split() == ["1.2", "3", "1.667", "1.8", "2"]
+
+
+def test_weighted_sizes_are_those_of_a_particle():
+    """M_w is the mean over particles of the size of their cluster, and does not follow from I_c."""
+    found = find_clusters(np.random.default_rng(11).uniform(0, 20, (300, 2)), 20.0, 1.0)
+    for labels, sizes, weighted in zip(found.labels, found.sizes, found.weighted_sizes, strict=True):
+        assert weighted == pytest.approx(sizes[labels].mean())
+    pairs, triple = [[0.0], [1.0], [5.0], [6.0]], [[0.0], [1.0], [2.0], [6.0]]
+    assert [find_clusters(x, None, 1.0, [1.1]).weighted_sizes[0] for x in (pairs, triple)] == [2.0, 2.5]
+
+
+def test_weighted_sizes_of_large_clusters_do_not_overflow():
+    chain = np.arange(70_000.0)[:, np.newaxis]
+    assert find_clusters(chain, None, 1.0, [1.1]).weighted_sizes == [70_000.0]
+
+
+@pytest.mark.parametrize("dim", [2, 3])
+def test_positions_and_a_box_are_enough(dim):
+    """Lengths are in diameters where none is given, in a periodic box or in the open."""
+    positions = np.random.default_rng(12).uniform(0, 12, (150, dim))
+    for box in (None, 12.0, [12.0] * dim):
+        np.testing.assert_array_equal(find_clusters(positions, box).labels, find_clusters(positions, box, 1.0).labels)
+        for labels, factor in zip(find_clusters(positions, box).labels, PAPER_FACTORS, strict=True):
+            np.testing.assert_array_equal(labels, scipy_labels(positions, box, factor))
+    assert find_clusters(positions.tolist(), 12.0).counts[0] > 1
+
+
+@pytest.mark.parametrize("dim", [2, 3])
+def test_diameters_of_a_pair_decide(dim):
+    """B Eq. 6: half the sum of both diameters, times S_c."""
+    pair = np.zeros((2, dim))
+    pair[1, 0] = 1.1 * (0.6 + 1.4) / 2
+    for box in (None, 10.0):
+        assert find_clusters(pair, box, [0.6, 1.4], [1.1 * (1 + 1e-12)]).counts == [1]
+        assert find_clusters(pair, box, [0.6, 1.4], [1.1 * (1 - 1e-12)]).counts == [2]
+        assert find_clusters(pair, box, [0.6, 1.3], [1.1]).counts == [2]
 
 
 def test_many_bonds_a_particle():
@@ -185,7 +222,6 @@ def test_many_bonds_a_particle():
         (([0.0, 1.0], 1.0, 1.0), r"positions of shape \(2,\)"),
         ((np.zeros((0, 2)), 1.0, 1.0), r"positions of shape \(0, 2\)"),
         ((np.zeros((2, 4)), 1.0, 1.0), r"positions of shape \(2, 4\)"),
-        (([[0.0, 0.0]], 1.0), "diameter: missing"),
         (([[0.0, 0.0]], 1.0, 0.0), "diameter: allowed are a number > 0"),
         (([[0.0, 0.0]], 1.0, [1.0, 1.0]), "diameter: allowed are .* or 1 of them"),
         (([[0.0, 0.0]], -1.0, 1.0), "box = -1.0: allowed are 2 sides > 0"),
@@ -251,6 +287,7 @@ def test_clusters_of_a_trajectory(run):
         at_t = found.isel(time=t)
         np.testing.assert_array_equal(at_t.cluster_count, clusters.counts)
         np.testing.assert_array_equal(at_t.mean_cluster_size, clusters.mean_sizes)
+        np.testing.assert_array_equal(at_t.weighted_cluster_size, clusters.weighted_sizes)
         np.testing.assert_array_equal(at_t.largest_cluster_size, clusters.largest_sizes)
         for c, sizes in enumerate(clusters.sizes):
             lower, upper = found.cluster_size.values, found.cluster_size_upper.values
