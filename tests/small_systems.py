@@ -84,7 +84,7 @@ def contact_times() -> xr.Dataset:
             tau = tau * np.exp(4 * (COLLISIONS > 500))
         shear = np.where(COLLISIONS > 40, 0.9 * SIGNS[:, [place]], 0.02)
         slower = np.where(COLLISIONS > 0.5, 1.5 if t_c == 1e-3 else 1 + 0.01 * place, 1)
-        elastic = np.broadcast_to(1e-2 * COLLISIONS, tau.shape)
+        elastic = np.broadcast_to(1e-2 * np.maximum(COLLISIONS - 1.0, 0), tau.shape)  # none at first
         points.append(by_collisions(0.6, t_c, tau, shear, factor=slower, elastic_collisions_per_particle=elastic))
     return xr.concat(points, "contact_time", data_vars="all")
 

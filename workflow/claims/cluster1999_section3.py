@@ -530,6 +530,8 @@ def deviation_and_anisotropy(data):
     "the last)",
     expected=at_least(1),
     why="the order alone; .2 is more than five times the noise of 784 disks",
+    remark="From r = .97 to .8 it is so. At r = .6 the shear mode is as early as at .8, and at r = .2 it comes at the same "
+    "time t, but by then the particles, in clusters, have collided three times as often.",
 )
 def anisotropic_earlier(data):
     """The lower r is, the earlier the deviations in Fig. 1(d) begin."""
@@ -658,14 +660,19 @@ def tiny_changes(data):
 @claim(
     "B-3-34",
     figure="cluster1999_fig2",
-    quantity="largest difference of Kx at C/N = .1 between the t_c of a start state, by K, t_c <= 1e-6 s",
+    quantity="largest difference of Kx at C/N = .1 between the t_c of a start state, by K, t_c <= 1e-6 s, where no collision "
+    "was elastic yet",
     expected=at_most(1e-9),
     why="the same 39 collisions to the last digits, none of which has t_c at work",
 )
 def identical_start(data):
     """The initial conditions are identical for all t_c."""
     values, _ = for_all_times(data, "kinetic_energy_x", CONTACT_TIMES[2:])
-    return np.ptp(values[:, :, 0], axis=1).max()
+    elastic, _ = for_all_times(data, "elastic_collisions_per_particle", CONTACT_TIMES[2:])
+    chosen = values[~elastic[:, :, 0].any(axis=1), :, 0]
+    if not len(chosen):
+        raise NotMeasured("every start state has an elastic collision before C/N = .1")
+    return np.ptp(chosen, axis=1).max()
 
 
 @claim(

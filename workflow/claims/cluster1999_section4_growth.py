@@ -16,7 +16,7 @@ END = 446.6
 
 UNITS = (
     "With the units of section 3 homogeneous cooling itself (Eq. 4) has C/N = 30.7 at .64 s, and we measure 5 % more. Our runs "
-    "reach the printed numbers at 1.6, 1.45 and 1.3 times .64, 2.56 and 40.96 s: no single factor in the units gives them, so "
+    "reach the printed numbers at 1.6, 1.4 and 1.2 times .64, 2.56 and 40.96 s: no single factor in the units gives them, so "
     "none was tuned."
 )
 SINGLE = "The print has one run; ours differ by half as much again once one cluster has most particles."
@@ -234,14 +234,15 @@ def faster_again(data):
     quantity="t at which d ln(K/Eq. 1)/d ln t falls to half of its maximum, in s",
     expected=value(50, relative=0.5),
     why="'at about 50 s', read off a logarithmic axis; where the slope is half way down is our criterion for a kink",
-    remark="The slope begins to fall at about 20 s (B-4-10 holds) but does so over more than a decade of time: half way is "
-    "reached at 200 s. 50 s is where one sees the bend begin.",
+    remark="The slope begins to fall at about 20 s (B-4-10 holds) but does so over more than a decade of time: in the mean of "
+    "the runs it is not half way down by the last time. 50 s is where one sees the bend begin.",
 )
 def end_of_slow_decay(data):
     """Energy decays faster again at about 50 s."""
     t, found = excess(data)
     found = local_exponent(t, found)
-    return jackknife(lambda v: growth_regime(t, v.mean(axis=0))[1], found)
+    time, error = jackknife(lambda v: growth_regime(t, v.mean(axis=0))[1], found)
+    return np.where(np.isnan(time), np.inf, time), error
 
 
 @claim(

@@ -51,10 +51,11 @@ def exponents(data, name, factors, window=WINDOW):
     return np.stack([fit_power_law(t, one, window).exponents for one in values.swapaxes(0, 1)], axis=1)
 
 
-def boundary(data, side):
-    """Where growth of <M> begins (0) or ends (1), S_c = 1.1, in s."""
+def regime(data, statistic):
+    """A statistic of beginning and end of the growth of <M> in s, S_c = 1.1; infinite where the runs do not reach the end."""
     t, values = curves(data, MEAN, (1.1,))
-    return jackknife(lambda v: growth_regime(t, v.mean(axis=0))[side], local_exponent(t, values[:, 0]))
+    found, error = jackknife(lambda v: statistic(*growth_regime(t, v.mean(axis=0))), local_exponent(t, values[:, 0]))
+    return np.where(np.isnan(found), np.inf, found), error
 
 
 @claim(
@@ -191,7 +192,7 @@ def weak_change_of_the_largest(data):
 )
 def growth_begins(data):
     """The growth regime begins at 1 s."""
-    return boundary(data, 0)
+    return regime(data, lambda begin, end: begin)
 
 
 @claim(
@@ -200,11 +201,12 @@ def growth_begins(data):
     quantity="t at which d ln<M>/d ln t falls to half of its maximum, S_c = 1.1, in s",
     expected=between(20, 80),
     why="'until about 40 s': within a factor of two; half of the maximum is our criterion",
-    remark="The criterion has growth end at 80 to 100 s, where the curves bend in Fig. 7; one sees the bend begin before.",
+    remark="The single run of the print bends. The mean of several slows down from a local exponent of .34 at 5 s to .19 after "
+    "80 s, which is not half of it, and does not stop: the clusters of some runs meet later than those of others.",
 )
 def growth_ends(data):
     """The growth regime lasts until about 40 s."""
-    return boundary(data, 1)
+    return regime(data, lambda begin, end: end)
 
 
 @claim(
@@ -347,8 +349,7 @@ def opposite_sign(data):
 )
 def range_of_the_fit(data):
     """The limited system size allows a reasonable fit over a little more than one order of magnitude in time only."""
-    t, values = curves(data, MEAN, (1.1,))
-    return jackknife(lambda v: np.diff(np.log10(growth_regime(t, v.mean(axis=0))))[0], local_exponent(t, values[:, 0]))
+    return regime(data, lambda begin, end: np.log10(end / begin))
 
 
 @claim(
@@ -368,7 +369,7 @@ def a_guess(data):
 @claim(
     "B-6-52",
     figure="cluster1999_fig7",
-    quantity="M_max/N where the growth of <M> ends, S_c = 1.1",
+    quantity="M_max/N where the growth of <M> ends, or at 446.6 s, S_c = 1.1",
     expected=at_least(0.1),
     why="'the size of the system': a tenth of its particles in one cluster of a shape that spans it",
 )
@@ -378,7 +379,7 @@ def not_enough_particles(data):
     _, largest = curves(data, LARGEST, (1.1,))
 
     def at_the_end(v):
-        end = growth_regime(t, v[:, 0].mean(axis=0))[1]
+        end = np.nan_to_num(growth_regime(t, v[:, 0].mean(axis=0))[1], nan=END)
         return np.exp(np.interp(np.log(end), np.log(t), v[:, 1].mean(axis=0))) / N
 
     return jackknife(at_the_end, np.stack([local_exponent(t, values[:, 0]), np.log(largest[:, 0])], axis=1))

@@ -138,7 +138,7 @@ def contacts_inside(data):
     quantity="most frequent number of contacts in the largest cluster (of S_c = 1.1) at 446.6 s, S_c = 1.01",
     expected=value(6),
     why="1.01 is the lower end of what the paper calls reasonable",
-    remark="Four, as at 1.05: a third or more of the gaps between neighbours in the cluster are wider than .01 d.",
+    remark="Three, fewer than at 1.05: a third or more of the gaps between neighbours in the cluster are wider than .01 d.",
 )
 def contacts_at_the_lower_end(data):
     """(i) And at S_c = 1.01."""
@@ -250,7 +250,7 @@ def others_grow(data):
     quantity="<M> at 40.96 s by that at 1.28 s: by relative velocity, by collision frequency",
     expected=at_least([1.5, 1.5]),
     why="<M> ~ t^.3 is a factor 2.8; half of its growth on a logarithmic axis would be 1.7",
-    remark="By relative velocity it grows fivefold, by collision frequency it even falls by an eighth: collisions "
+    remark="By relative velocity it grows fivefold, by collision frequency it even falls by a sixth: collisions "
     "concentrate on few particles in the centres of clusters, and the many below the mean rate are all single.",
 )
 def others_grow_in_the_mean(data):
