@@ -201,7 +201,7 @@ def growth_begins(data):
     quantity="t at which d ln<M>/d ln t falls to half of its maximum, S_c = 1.1, in s",
     expected=between(20, 80),
     why="'until about 40 s': within a factor of two; half of the maximum is our criterion",
-    remark="The single run of the print bends. The mean of several slows down from a local exponent of .34 at 5 s to .19 after "
+    remark="The single run of the print bends. The mean of several slows down from a local exponent of .31 at 5 s to .19 after "
     "80 s, which is not half of it, and does not stop: the clusters of some runs meet later than those of others.",
 )
 def growth_ends(data):
