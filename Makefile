@@ -5,7 +5,7 @@ VENV := .venv/bin
 SNAKEMAKE := $(VENV)/snakemake --cores $(CORES)
 PYTEST := SLURM_CONF=/dev/null MPLBACKEND=Agg $(VENV)/python -m pytest
 
-.PHONY: help figures preview test test-full bench gallery lint lock clean
+.PHONY: help figures preview test test-full bench gallery prune lint lock clean
 
 help:
 	@echo 'make figures    all figures at full size, into results/'
@@ -14,6 +14,7 @@ help:
 	@echo 'make test-full  all tests'
 	@echo 'make bench      speed of the engine, into results/bench.csv'
 	@echo 'make gallery    copy final figures and tables into results/gallery/'
+	@echo 'make prune      remove runs that no study names any more, after a question (OVERLAYS=mine.yaml for more studies)'
 	@echo 'make lint       style of the code'
 	@echo 'make lock       pin what pyproject.toml asks for (without requirements.lock: in its newest version)'
 	@echo 'make clean      remove caches; results and .venv stay'
@@ -35,6 +36,9 @@ bench: .venv/.installed
 
 gallery: .venv/.installed
 	$(VENV)/python -m granugas.storage.gallery results
+
+prune: .venv/.installed
+	$(VENV)/python -m granugas prune $(OVERLAYS)
 
 lint: .venv/.installed
 	$(VENV)/ruff check .

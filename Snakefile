@@ -18,6 +18,7 @@ rule all:
         [f"{OUTPUT}/figures/{name}.{kind}" for name in STUDIES.wanted for kind in ("png", "pdf")],
         tables(),
         animations(),
+        REMOVED,
 
 
 include: "workflow/rules/simulate.smk"

@@ -42,3 +42,16 @@ def elastic_study(
         "time": np.arange(3),
     }
     return xr.Dataset(data, coordinates, {"diameter": 1e-3, "velocity_half_width": 0.5})
+
+
+def collapse_study(n_particles: int, realizations: int = 3) -> xr.Dataset:
+    """Runs without t_c that collapse after 50 collisions per particle below r = .6, and go on to 500 above."""
+    r = np.array([0.4, 0.5, 0.7, 0.8])
+    dims = ("n_particles", "area_fraction", "restitution", "contact_time", "realization")
+    collapsed = np.broadcast_to((r < 0.6)[:, np.newaxis, np.newaxis], (1, 1, len(r), 1, realizations))
+    data = {
+        "events": (dims, np.where(collapsed, 25, 250) * n_particles),
+        "stop_reason": (dims, np.where(collapsed, "inelastic_collapse", "collisions_per_particle")),
+    }
+    grid = {"n_particles": [n_particles], "area_fraction": [0.226725], "restitution": r, "contact_time": [0.0]}
+    return xr.Dataset(data, grid | {"realization": np.arange(realizations)})

@@ -1,13 +1,18 @@
-"""The package from the shell: `python -m granugas run ...`, `python -m granugas bench ...`."""
+"""The package from the shell: `python -m granugas run ...`, `bench ...`, `compare ...`, `prune ...`."""
 
 import argparse
 import json
 import logging
 import sys
 from dataclasses import asdict
-from typing import Any
+from pathlib import Path
+from typing import Any, NoReturn
 
 from granugas.scene import Scene
+from granugas.storage.damage import DamagedFile
+
+BASE = "config/config.yaml"
+"""The configuration that is always the first, as for a build."""
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -16,7 +21,7 @@ def main(arguments: list[str] | None = None) -> int:
     logging.basicConfig(level=logging.INFO, format="%(message)s")
     try:
         return options.command(options)
-    except (ValueError, OSError) as error:
+    except (ValueError, OSError, DamagedFile) as error:
         print(f"granugas: {error}", file=sys.stderr)
         return 2
 
@@ -53,6 +58,36 @@ def _bench(options: argparse.Namespace) -> int:
     return 0
 
 
+def _compare(options: argparse.Namespace) -> int:
+    from granugas.storage.compare import compare
+    from granugas.storage.dataset import read
+
+    found = compare(read(options.first), read(options.second))
+    print(found)
+    return 0 if found.agree else 1
+
+
+def _prune(options: argparse.Namespace) -> int:
+    import yaml
+
+    from granugas import studies
+    from granugas.configuration import merged
+    from granugas.storage.prune import leftovers, listing, no_build, remove
+
+    schema = yaml.safe_load((options.workflow / "schemas/config.schema.yaml").read_text(encoding="utf-8"))
+    asked = studies.load(merged([BASE, *options.overlays]), schema, studies.figures_in(options.workflow / "figures"))
+    with no_build(asked.output):
+        paths = leftovers(asked.output, asked.names())
+        print(listing(paths))
+        on_terminal = sys.stdin.isatty()
+        if paths and not options.yes and not (on_terminal and input("Remove them? y/N ").strip().lower() in ("y", "yes")):
+            print("Nothing is removed" + ("." if on_terminal else ": --yes removes them."))
+        elif paths:
+            remove(paths)
+            print(f"{len(paths)} files removed.")
+    return 0
+
+
 def _scene(options: argparse.Namespace) -> Scene:
     times = options.contact_time
     values: dict[str, Any] = {
@@ -66,6 +101,13 @@ def _scene(options: argparse.Namespace) -> Scene:
     return Scene(**values)
 
 
+class _Parser(argparse.ArgumentParser):
+    """Says what is wrong in one line, without all that would be right."""
+
+    def error(self, message: str) -> NoReturn:
+        self.exit(2, f"granugas: {message}; {self.prog} --help says more\n")
+
+
 def _parser() -> argparse.ArgumentParser:
     default = Scene()
     scene = argparse.ArgumentParser(add_help=False)
@@ -75,7 +117,7 @@ def _parser() -> argparse.ArgumentParser:
     scene.add_argument("--contact-time", type=float, nargs="+", default=[default.contact_time], help="s; several at r = 1")
     scene.add_argument("--diameter", type=float, default=default.diameter, help="m")
     scene.add_argument("--lattice", default=default.lattice, help="start lattice: auto, triangular, square")
-    parser = argparse.ArgumentParser(prog="python -m granugas", description=__doc__)
+    parser = _Parser(prog="python -m granugas", description=__doc__)
     commands = parser.add_subparsers(required=True)
 
     run = commands.add_parser("run", parents=[scene], help="one run, written as netCDF")
@@ -93,6 +135,17 @@ def _parser() -> argparse.ArgumentParser:
     bench.add_argument("--collisions", type=int, default=2_000_000)
     bench.add_argument("--begin", type=float, default=0.0, help="time from which collisions are timed, s")
     bench.set_defaults(command=_bench)
+
+    compare = commands.add_parser("compare", help="whether two datasets agree; exit code 0 if they do, 1 if not")
+    compare.add_argument("first", metavar="A.nc")
+    compare.add_argument("second", metavar="B.nc")
+    compare.set_defaults(command=_compare)
+
+    prune = commands.add_parser("prune", help="remove files of runs that no study names any more, after listing them")
+    prune.add_argument("overlays", nargs="*", metavar="mine.yaml", help=f"configurations on top of {BASE}")
+    prune.add_argument("--yes", action="store_true", help="do not ask")
+    prune.add_argument("--workflow", type=Path, default=Path("workflow"), help="folder of the schema and the figures")
+    prune.set_defaults(command=_prune)
     return parser
 
 

@@ -52,6 +52,7 @@ def render(run: xr.Dataset, path: str | Path, colour: str = "energy") -> None:
     Raises:
         ValueError: no such colouring.
         KeyError: a variable that the colouring needs is missing.
+        OSError: the film cannot be written.
     """
     if colour not in COLOURINGS:
         raise ValueError(f"colour = {colour!r}: allowed are {', '.join(COLOURINGS)}")
@@ -62,17 +63,18 @@ def render(run: xr.Dataset, path: str | Path, colour: str = "energy") -> None:
     most = LIMIT * 8 * RATE / len(times) / 1000  # kbit/s
     limits = ["-maxrate", f"{0.9 * most:.0f}k", "-bufsize", f"{most:.0f}k"]
     encoded = {"fps": RATE, "codec": "libx264", "quality": None, "macro_block_size": 2, "output_params": [*ENCODER, *limits]}
-    with (
-        style.context(STYLE),
-        replacing(path) as temporary,
-        closing(imageio_ffmpeg.write_frames(str(temporary), size, **encoded)) as film,
-    ):
-        film.send(None)
-        colouring = COLOURINGS[colour]()
-        frames = zip(_positions(run), _values(run, times, colour), _strips(run, times, colouring, size[0]), strict=False)
-        for positions, values, strip in frames:
-            picture = splat(positions, box, run.attrs["diameter"], colouring(values)[:, :3], dots)
-            film.send(np.vstack([picture, strip]))
+    with style.context(STYLE), replacing(path) as temporary:
+        sent = 0
+        with closing(imageio_ffmpeg.write_frames(str(temporary), size, **encoded)) as film:
+            film.send(None)
+            colouring = COLOURINGS[colour]()
+            frames = zip(_positions(run), _values(run, times, colour), _strips(run, times, colouring, size[0]), strict=False)
+            for positions, values, strip in frames:
+                picture = splat(positions, box, run.attrs["diameter"], colouring(values)[:, :3], dots)
+                film.send(np.vstack([picture, strip]))
+                sent += 1
+        if imageio_ffmpeg.count_frames_and_secs(str(temporary))[0] != sent:  # an encoder that fails at its end says nothing
+            raise OSError("the encoder stopped before its end")
 
 
 def splat(positions: Numbers, box: Numbers, diameter: float, colours: Numbers, dots: NDArray[np.int64]) -> Picture:

@@ -5,6 +5,7 @@ import time
 from dataclasses import dataclass, replace
 from typing import Any
 
+from granugas.arguments import is_number, need_integer
 from granugas.dynamics.events.effects.contact_time import ContactTime
 from granugas.dynamics.events.engine import Engine
 from granugas.equilibrate import equilibrate, state_of
@@ -47,7 +48,13 @@ def time_collisions(
     """Time the collisions of a scene from equilibrium, or from the time `begin` (s) on.
 
     `rule` replaces the collision rule that the scene calls for (`always_contact_time`, to see what the rule costs).
+
+    Raises:
+        ValueError: no collision to time, or no time to begin at.
     """
+    need_integer("collisions", collisions, 1)
+    if not is_number(begin) or begin < 0:
+        raise ValueError(f"begin = {begin!r}: allowed is a number >= 0 s")
     started = time.perf_counter()
     warm_up([replace(scene)])
     compile_s = time.perf_counter() - started

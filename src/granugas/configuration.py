@@ -11,12 +11,17 @@ import yaml
 from jsonschema import Draft202012Validator, ValidationError, validators
 
 
-class _Missing:
+class Written:
+    """A value that messages show as it is written here."""
+
+    def __init__(self, text: str) -> None:
+        self._text = text
+
     def __repr__(self) -> str:
-        return "(missing)"
+        return self._text
 
 
-MISSING = _Missing()
+MISSING = Written("(missing)")
 """The value of a key that is not there."""
 
 
@@ -51,6 +56,35 @@ def with_defaults(block: Mapping[str, Any], schema: Mapping[str, Any]) -> dict[s
         if isinstance(filled.get(key), Mapping):
             filled[key] = with_defaults(filled[key], piece)
     return filled
+
+
+def merged(files: Iterable[str | Path]) -> dict[str, Any]:
+    """The configuration of several YAML files: later ones win, key by key, at every depth; lists are replaced.
+
+    Raises:
+        ConfigError: a key stands twice in one block, or a file is no YAML block.
+        OSError: a file cannot be read.
+    """
+    whole: dict[str, Any] = {}
+    for file in map(Path, files):
+        try:
+            refuse_duplicate_keys([file])
+            block = yaml.safe_load(file.read_text(encoding="utf-8"))
+        except (yaml.YAMLError, UnicodeDecodeError) as error:
+            raise ConfigError(str(file), Written("(no YAML)"), " ".join(str(error).split())) from error
+        if not isinstance(block, Mapping):
+            raise ConfigError(str(file), block, "allowed is a block of keys")
+        whole = _over(whole, block)
+    return whole
+
+
+def _over(below: Mapping[str, Any], above: Mapping[str, Any]) -> dict[str, Any]:
+    both = {key: _over(below[key], above[key]) for key in below if _is_block(below[key]) and _is_block(above.get(key))}
+    return {**below, **above, **both}
+
+
+def _is_block(value: Any) -> bool:
+    return isinstance(value, Mapping)
 
 
 def refuse_duplicate_keys(files: Iterable[str | Path]) -> None:
@@ -115,7 +149,7 @@ def _allowed(schema: Mapping[str, Any]) -> str:
         return f"allowed is a list with at least one value{each}"
     bounds = {"minimum": ">=", "exclusiveMinimum": ">", "maximum": "<="}
     said = " and ".join(f"{sign} {schema[bound]}" for bound, sign in bounds.items() if bound in schema)
-    noun = {"integer": "an integer", "number": "a number", "string": "text"}[kind]
+    noun = {"integer": "an integer", "number": "a number", "string": "text", "boolean": "true or false"}[kind]
     return f"allowed is {noun} {said}".rstrip()
 
 
@@ -150,7 +184,8 @@ def _refuse_duplicates(node: yaml.Node | None, path: list[str], file: Path) -> N
 
 def _dotted(path: Iterable[Any]) -> str:
     """studies.x.snapshots; the place in a list is left out, the value says which."""
-    return ".".join(str(part) for part in path if not isinstance(part, int)) or "configuration"
+    parts = (str(part) for part in path if not isinstance(part, int))
+    return ".".join(part if part.isprintable() else repr(part) for part in parts) or "configuration"
 
 
 def _shown(value: Any, width: int = 90) -> str:

@@ -23,6 +23,8 @@ SOURCES = Path(__file__).resolve().parent
 
 EVENTS = (
     "granugas.scene",
+    "granugas.arguments",
+    "granugas.doubts",
     "granugas.initial",
     "granugas.equilibrate",
     "granugas.sampling",
@@ -52,6 +54,10 @@ KERNELS = ("granugas.dynamics.*", "granugas.analysis.*")
 
 UNUSED_AFTER = 30 * 86400.0
 """Age in s at which the compiled kernels of another version of the sources are removed."""
+
+
+ROOM = 2**25
+"""Bytes that must be free where compiled kernels are kept: some times what they need."""
 
 
 def digest(modules: Iterable[str]) -> str:
@@ -89,7 +95,7 @@ def kernel_cache_directory() -> Path:
     """The folder of the compiled kernels of these sources, for the user alone (mode 0700).
 
     `granugas/kernels-<digest>` in the user's cache (XDG_CACHE_HOME or ~/.cache), or in the folder for temporary files
-    where that cannot be written. Folders of other versions that nobody used for 30 days are removed.
+    where that cannot be written or is full. Folders of other versions that nobody used for 30 days are removed.
     """
     name = f"kernels-{digest(KERNELS)[:16]}"
     caches = [Path(os.environ.get("XDG_CACHE_HOME", "")), Path(os.path.expanduser("~/.cache"))]
@@ -102,6 +108,13 @@ def kernel_cache_directory() -> Path:
     folder = Path(tempfile.mkdtemp(prefix="granugas-")) / name
     folder.mkdir(mode=0o700)
     return folder
+
+
+def forget_kernels() -> None:
+    """Remove the compiled kernels of these sources; a folder that somebody chose (NUMBA_CACHE_DIR) is left alone."""
+    chosen = os.environ.get("NUMBA_CACHE_DIR")
+    if not chosen or _is_kernel_cache(Path(chosen)):
+        shutil.rmtree(chosen or kernel_cache_directory(), ignore_errors=True)
 
 
 def _source_files(module: str) -> list[tuple[str, Path]]:
@@ -148,7 +161,7 @@ def _claim(folder: Path) -> bool:
             return False
         folder.chmod(0o700)
         os.utime(folder)  # the time of its last use
-        return os.access(folder, os.W_OK)
+        return os.access(folder, os.W_OK) and shutil.disk_usage(folder).free >= ROOM
     except OSError:
         return False
 

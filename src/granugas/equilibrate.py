@@ -1,13 +1,15 @@
 """Equilibration: elastic collisions until the start lattice is forgotten and the velocities are Maxwellian."""
 
-import logging
 import math
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 import xarray as xr
 
 from granugas.analysis.observables import anisotropy, velocity_kurtosis
+from granugas.arguments import is_number, need_integer, need_scene
+from granugas.doubts import doubts_of_start, tell
 from granugas.dynamics.events.engine import Engine
 from granugas.dynamics.state import State
 from granugas.initial import MELTED_UP_TO, Lattice, random_stream, rescaled, sites, start_lattice, start_velocities
@@ -26,8 +28,6 @@ SIGMAS = 4.0
 
 MOST_ORDER = 16.0
 """Largest |sum exp(ikr)|^2 / N at the lattice's wave vectors: a fluid has 1 to 5 on average, a crystal of the order of N."""
-
-logger = logging.getLogger("granugas")
 
 
 @dataclass(frozen=True)
@@ -66,7 +66,14 @@ def equilibrate(
 
     Raises:
         SceneError: the disks do not fit.
+        ValueError: a number that makes no sense.
+        TypeError: a scene that is none.
     """
+    need_scene(scene)
+    need_integer("seed", seed)
+    need_integer("realization", realization)
+    if not is_number(collisions_per_particle) or collisions_per_particle <= 0:
+        raise ValueError(f"collisions_per_particle = {collisions_per_particle!r}: allowed is a number > 0")
     lattice = start_lattice(scene)
     rng = random_stream(scene, seed, realization)
     melts = scene.area_fraction <= MELTED_UP_TO
@@ -82,9 +89,9 @@ def equilibrate(
         found = judge(engine.state(), lattice, melts)
     bar.close()
     done = 2 * engine.collisions / scene.n_particles
-    if not found.reached and scene.n_particles > 1:
-        logger.warning("not in equilibrium after %g collisions per particle: %s", done, found)
-    return _dataset(scene, lattice, _at_time_zero(engine.state(), scene), found, done)
+    made = _dataset(scene, lattice, _at_time_zero(engine.state(), scene), found, done)
+    tell(doubts_of_start(scene.n_particles, made.attrs))
+    return made
 
 
 def judge(state: State, lattice: Lattice, melts: bool) -> Equilibrium:
@@ -108,6 +115,21 @@ def at_rest(position: np.ndarray, velocity: np.ndarray, box: tuple[float, float]
     n = len(position)
     never, endless = np.full(n, -np.inf), np.full(n, np.inf)
     return State(0.0, box, position, velocity, never, endless, np.zeros(n, np.int64))
+
+
+def need_start(scene: Scene, start: Any) -> None:
+    """Refuse what is no start state of as many disks in a box of the scene's area.
+
+    Raises:
+        TypeError, ValueError: say what it is.
+    """
+    if not isinstance(start, xr.Dataset) or "position" not in start or not {"box_x", "box_y"} <= start.attrs.keys():
+        raise TypeError(f"state = {type(start).__name__}: allowed is a dataset of granugas.equilibrate")
+    if start.sizes["particle"] != scene.n_particles:
+        raise ValueError(f"state = {start.sizes['particle']} disks: allowed are the {scene.n_particles} of the scene")
+    area = start.attrs["box_x"] * start.attrs["box_y"]
+    if not math.isclose(area, scene.area, rel_tol=1e-9):
+        raise ValueError(f"state = a box of {area:g} m^2: allowed is one of {scene.area:g} m^2, as the scene has")
 
 
 def state_of(start: xr.Dataset) -> State:

@@ -13,11 +13,17 @@ import time
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+from types import FrameType
 from typing import NamedTuple
 
+from granugas.digest import forget_kernels
 from granugas.scene import Scene
+from granugas.storage.damage import DamagedFile, check, is_complete
 
 PR_SET_PDEATHSIG = 1
+
+SKEW = 2.0
+"""s by which the clocks of a file server and of this machine may differ."""
 
 
 class Job(NamedTuple):
@@ -36,9 +42,16 @@ class Job(NamedTuple):
         return self.log is not None and _is_there(self.log, since)
 
     def last_words(self) -> str:
-        """The last line of its log: the reason where it failed."""
+        """The last line of its log, "" where there is none."""
         lines = [line for line in self.log.read_text(errors="replace").splitlines() if line.strip()]
-        return lines[-1].strip() if lines else "it wrote nothing into its log"
+        return lines[-1].strip() if lines else ""
+
+    def reason(self) -> str:
+        """Why it failed: an error is the last line of its log; where there is none, it had no time to say why."""
+        said = self.last_words()
+        if said and not re.match(r"\d\d:\d\d:\d\d ", said):
+            return said
+        return f"killed, perhaps for lack of memory; its last words: {said or 'none'}"
 
 
 @contextmanager
@@ -46,21 +59,29 @@ def logged(path: str | Path) -> Iterator[None]:
     """Let everything that a job says go to its log, and the job die with the workflow that started it.
 
     Standard output, standard error and logging are sent to the file, so an error ends the log with its traceback, the
-    reason in the last line. The package's warnings go to the terminal as well.
+    reason in the last line. The package's warnings go to the terminal as well. A damaged file that it meets is marked, for
+    the next build to look at (`remove_damaged`).
     """
     if sys.platform == "linux":
         ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
     terminal = logging.StreamHandler(os.fdopen(os.dup(2), "w"))
     terminal.setLevel(logging.WARNING)
     terminal.addFilter(logging.Filter("granugas"))
-    Path(path).parent.mkdir(parents=True, exist_ok=True)
-    with open(path, "w") as log:
-        os.dup2(log.fileno(), 1)
-        os.dup2(log.fileno(), 2)
+    try:
+        Path(path).parent.mkdir(parents=True, exist_ok=True)
+        with open(path, "w") as log:
+            os.dup2(log.fileno(), 1)
+            os.dup2(log.fileno(), 2)
+    except OSError as error:
+        sys.exit(f"{path}: cannot be written ({error.strerror})")
     form = f"%(asctime)s {Path(path).stem}: %(message)s"
     logging.basicConfig(format=form, datefmt="%H:%M:%S", handlers=[logging.StreamHandler(sys.stderr), terminal])
     logging.getLogger("granugas").setLevel(logging.INFO)
-    yield
+    try:
+        yield
+    except DamagedFile as error:
+        _mark_of(error.path).touch()
+        raise
     logging.getLogger("granugas").info("done")
 
 
@@ -69,6 +90,7 @@ def claim(output: str | Path) -> None:
 
     Raises:
         BlockingIOError: another process has it.
+        OSError: nothing can be written there.
     """
     output = Path(output)
     output.mkdir(parents=True, exist_ok=True)
@@ -79,17 +101,59 @@ def claim(output: str | Path) -> None:
             path.unlink()
 
 
+def remove_damaged(paths: Iterable[Path]) -> list[Path]:
+    """Remove those of the netCDF files that are there and cannot be trusted: marked ones are read in full, others seen at a
+    glance. Which they were.
+    """
+    removed = [path for path in paths if path.exists() and not (is_complete(path) and _is_as_written(path))]
+    for path in removed:
+        path.unlink(missing_ok=True)
+    return removed
+
+
+def date_now(output: str | Path) -> int:
+    """Give files of the results that are dated in the future a date that does not mislead: how many there were.
+
+    Datasets are dated now: what is made from them is made again where it is older, and not at every call. What nothing
+    is made from (figures, tables) gets a date before all others, and is made again.
+    """
+    now = time.time()
+    paths = [path for pattern in ("*", "*/*.*") for path in Path(output).glob(pattern) if path.is_file()]
+    ahead = [path for path in paths if path.suffix != ".log" and path.stat().st_mtime > now + SKEW]
+    for path in ahead:
+        date = now if path.suffix == ".nc" else 0.0
+        os.utime(path, (date, date))
+    return len(ahead)
+
+
+def pass_on_termination() -> None:
+    """Let a SIGTERM that this process gets reach its jobs too: they write their checkpoints and end, nobody waits days."""
+    before = signal.getsignal(signal.SIGTERM)
+
+    def pass_on(number: int, frame: FrameType | None) -> None:
+        for children in Path("/proc/self/task").glob("*/children"):
+            for child in children.read_text().split():
+                os.kill(int(child), number)
+        if callable(before):
+            before(number, frame)
+
+    if sys.platform == "linux":
+        signal.signal(signal.SIGTERM, pass_on)
+
+
 def warm_up(log: str | Path, scenes: Iterable[Scene]) -> None:
     """Compile the kernels of these scenes in a process of its own, so that jobs that start together find them compiled.
 
-    No rule does this: compiled kernels belong to the machine, not to the results. Where it fails the jobs fail too, and
-    say so in their logs.
+    No rule does this: compiled kernels belong to the machine, not to the results. Where it fails it tries once more
+    without the kernels that are there, which may be damaged; where that fails the jobs fail too, and say so in their logs.
     """
     Path(log).parent.mkdir(parents=True, exist_ok=True)
     with open(log, "w") as file:
         kinds = {(scene.restitution == 1, any(scene.contact_times)): scene for scene in scenes}  # same kernels, same kind
         command = [sys.executable, "-c", f"from granugas import Scene, warm_up; warm_up({list(kinds.values())!r})"]
-        subprocess.run(command, stdout=file, stderr=subprocess.STDOUT, check=False)
+        if subprocess.run(command, stdout=file, stderr=subprocess.STDOUT, check=False).returncode:
+            forget_kernels()
+            subprocess.run(command, stdout=file, stderr=subprocess.STDOUT, check=False)
 
 
 def tell_progress(costs: Mapping[Job, float], since: float, every: float = 30.0) -> None:
@@ -123,7 +187,7 @@ def failures(jobs: Iterable[Job], since: float, finals: Sequence[str]) -> str:
     missing = [job for job in jobs if job.outputs and not job.is_built(since)]
     wanted = [f"  {job.outputs[0]}" for job in missing if job.rule.startswith(tuple(finals))]
     failed = [job for job in missing if job.has_started(since)]
-    reasons = [f"  {job.rule} {job.outputs[0].stem}: {job.last_words()} (log: {job.log})" for job in failed]
+    reasons = [f"  {job.rule} {job.outputs[0].stem}: {job.reason()} (log: {job.log})" for job in failed]
     return "\n".join(["Missing or out of date:", *wanted, "Because of:", *reasons])
 
 
@@ -139,6 +203,24 @@ def _share(job: Job, since: float) -> float:
         return 1.0
     percent = re.findall(r"(\d+(?:\.\d+)?) ?%", job.last_words()) if job.has_started(since) else []
     return min(float(percent[-1]) / 100, 1.0) if percent else 0.0
+
+
+def _mark_of(path: Path) -> Path:
+    """The empty file beside a dataset that says: a job could not read it."""
+    return path.with_name(f".{path.name}.suspect")
+
+
+def _is_as_written(path: Path) -> bool:
+    """Whether a file has no mark, or has it without reason (a job without memory cannot read either)."""
+    mark = _mark_of(path)
+    if not mark.exists():
+        return True
+    try:
+        check(path)
+    except DamagedFile:
+        return False
+    mark.unlink(missing_ok=True)
+    return True
 
 
 def _is_there(path: Path, since: float) -> bool:

@@ -1,11 +1,13 @@
 """When a run ends, and where it is sampled on the way."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+
+from granugas.arguments import is_number
 
 COUNT = 200
 FIRST = 1.0e-3
@@ -60,6 +62,8 @@ def sampling_points(limits: Limits, samples: Mapping[str, Any] | None = None) ->
     Raises:
         ValueError: an unknown key or value, or samples that do not fit the limits.
     """
+    if not isinstance(samples, Mapping | None):
+        raise ValueError(f"samples = {samples!r}: allowed is a mapping with spacing, count, first, axis")
     given = dict(samples or {})
     axis = given.pop("axis", "collisions" if limits.time is None else "time")
     spacing = given.pop("spacing", "log")
@@ -72,11 +76,27 @@ def sampling_points(limits: Limits, samples: Mapping[str, Any] | None = None) ->
         raise ValueError(f"samples.{next(iter(given))}: allowed are spacing, count, first, axis")
     if spacing not in ("log", "linear"):
         raise ValueError(f"samples.spacing = {spacing!r}: allowed are log, linear")
-    if isinstance(count, bool) or count != int(count) or count < 1:
+    if not is_number(count) or count != int(count) or count < 1:
         raise ValueError(f"samples.count = {count!r}: allowed is an integer >= 1")
-    if not 0 < first <= end:
+    if not is_number(first) or not 0 < first <= end:
         raise ValueError(f"samples.first = {first!r}: allowed is a number > 0 and <= {end:g}, the end of the run")
     if count == 1:
         return Samples(axis, np.array([float(end)]))
     points = np.geomspace(first, end, int(count)) if spacing == "log" else np.linspace(first, end, int(count))
     return Samples(axis, points)
+
+
+def snapshot_times(snapshots: Sequence[float]) -> list[float]:
+    """The times of the snapshots in s, ascending.
+
+    Raises:
+        ValueError: no sequence of times >= 0, or one of them twice.
+    """
+    if isinstance(snapshots, str) or not isinstance(snapshots, Sequence | np.ndarray):
+        raise ValueError(f"snapshots = {snapshots!r}: allowed is a list of times in s")
+    for time in snapshots:
+        if not is_number(time) or time < 0:
+            raise ValueError(f"snapshots = {time!r}: allowed are times >= 0 s")
+    if len(set(snapshots)) < len(snapshots):
+        raise ValueError(f"snapshots = {list(snapshots)!r}: allowed is each time once")
+    return sorted(float(time) for time in snapshots)

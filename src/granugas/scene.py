@@ -10,6 +10,12 @@ CLOSE_PACKING = math.pi / (2 * math.sqrt(3))
 """Area fraction of the densest packing of equal disks, .9069."""
 
 MAX_PARTICLES = 10_000_000
+EXTREME = 1.0e50
+"""Beyond it and its inverse lengths, velocities and fractions overflow where they are squared and divided."""
+
+MOST_SLENDER = 1.0e4
+"""Ratio of the sides of a box, either way."""
+
 LATTICES = ("auto", "triangular", "square")
 DYNAMICS = ("events",)
 BOUNDARIES = ("periodic",)
@@ -71,6 +77,9 @@ class Scene:
         _number("diameter", self.diameter, above=0.0, note=" m")
         _number("velocity_half_width", self.velocity_half_width, above=0.0, note=" m/s")
         _number("aspect_ratio", self.aspect_ratio, above=0.0)
+        for key in ("area_fraction", "diameter", "velocity_half_width"):
+            _within(key, getattr(self, key), EXTREME)
+        _within("aspect_ratio", self.aspect_ratio, MOST_SLENDER)
         _choice("dynamics", self.dynamics, DYNAMICS)
         _choice("lattice", self.lattice, LATTICES)
         _choice("dimensions", self.dimensions, DIMENSIONS)
@@ -130,6 +139,11 @@ def _number(
     return float(value)
 
 
+def _within(key: str, value: float, factor: float) -> None:
+    if not 1 / factor <= value <= factor:
+        raise SceneError(key, value, f"allowed is a number from {1 / factor:g} to {factor:g}")
+
+
 def _choice(key: str, value: Any, allowed: tuple[Any, ...]) -> None:
-    if isinstance(value, bool) or value not in allowed:
+    if isinstance(value, bool) or not isinstance(value, (str, int)) or value not in allowed:
         raise SceneError(key, value, f"allowed are {', '.join(map(str, allowed))}")

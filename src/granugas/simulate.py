@@ -5,18 +5,21 @@ import math
 import time
 from collections import deque
 from collections.abc import Callable, Mapping, Sequence
+from numbers import Real
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
+from granugas.arguments import need_integer, need_scene
+from granugas.doubts import doubts_after, doubts_before, tell
 from granugas.dynamics.events import loop
 from granugas.dynamics.events.engine import Engine
-from granugas.equilibrate import equilibrate, state_of
+from granugas.equilibrate import equilibrate, need_start, state_of
 from granugas.interruption import Keeper, watched
 from granugas.progress import Progress
 from granugas.record import FREQUENCY_WINDOW, Record
-from granugas.sampling import Limits, Samples, sampling_points
+from granugas.sampling import Limits, Samples, sampling_points, snapshot_times
 from granugas.scene import Scene
 from granugas.storage.variables import describe
 
@@ -64,19 +67,28 @@ def simulate(
         collapse, one of several limits), values after `stop_time` are NaN and `stop_reason` says why.
 
     Raises:
-        ValueError: limits or samples that make no sense.
+        ValueError: limits, samples or numbers that make no sense, a start state of other disks.
+        TypeError: a scene or a start state that is none.
         SceneError: the disks do not fit.
         Interrupted: SIGTERM or Ctrl-C came; the checkpoint is written.
     """
     clock = Clock()
-    limits = Limits.of(until)
+    need_scene(scene)
+    for key, value, low in (("seed", seed, 0), ("realization", realization, 0), ("max_collisions", max_collisions, 1)):
+        need_integer(key, value, low)
+    if not isinstance(max_seconds, Real) or not max_seconds >= 0:
+        raise ValueError(f"max_seconds = {max_seconds!r}: allowed is a number >= 0 s")
+    limits, times = Limits.of(until), snapshot_times(snapshots)
     points = sampling_points(limits, samples)
     if scene.n_particles == 1 and limits.time is None:
         raise ValueError("until: a single particle never collides; name a time")
     if state is None:
         state = equilibrate(scene, seed=seed, realization=realization, progress=progress)
+    need_start(scene, state)
     engine = Engine(scene, state_of(state))
-    record = Record(scene, engine.state(), points, snapshots, keep_positions, keep_motion)
+    cells = [int(engine.arrays["grid"][count][0]) for count in ("nx", "ny")]
+    tell(doubts := doubts_before(scene, state.attrs, cells, keep_positions))
+    record = Record(scene, engine.state(), points, times, keep_positions, keep_motion)
     stops = _stops(scene.n_particles, limits, points, record, max_collisions)
     saved = checkpoint.load() if checkpoint is not None else None
     if saved is not None:
@@ -105,6 +117,8 @@ def simulate(
     data["seed"], data["realization"] = seed, realization
     data["events"], data["stop_reason"], data["stop_time"] = engine.collisions, reason, engine.time
     data["wall_time"], data["cpu_time"] = clock.spent
+    tell(late := doubts_after(data))
+    data.attrs["warnings"] = "\n".join([*doubts, *late])
     return describe(data)
 
 

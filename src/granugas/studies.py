@@ -11,7 +11,8 @@ from dataclasses import dataclass
 from pathlib import Path, PurePath
 from typing import Any
 
-from granugas.configuration import MISSING, ConfigError, check_structure, unknown, with_defaults
+from granugas.configuration import MISSING, ConfigError, Written, check_structure, unknown, with_defaults
+from granugas.resources import memory_at_hand, memory_of
 from granugas.runs import DEFAULTS, Run, digest_of
 from granugas.scene import SCENE_KEYS, Scene, SceneError
 
@@ -19,6 +20,9 @@ FLOAT_KEYS = {key for key, value in DEFAULTS.items() if isinstance(value, float)
 
 OVERVIEW = "overview"
 """Figure file that draws any study."""
+
+MOST_RUNS = 10_000
+"""Runs of a configuration that does not say `allow_large: true`; realizations of one job are so many runs."""
 
 
 @dataclass(frozen=True)
@@ -107,6 +111,17 @@ class Studies:
         """For every start state one of the runs that begin with it."""
         return {run.state_address: run for run in self.runs().values()}
 
+    def names(self) -> dict[str, set[str]]:
+        """For each folder of the results the names of the runs' files in it, without suffix."""
+        runs = self.runs()
+        return {
+            "runs": {*runs},
+            "states": {*self.states()},
+            "positions": {address for address, run in runs.items() if run.keep_positions},
+            "clusters": {*self.clusters()},
+            "checkpoints": {f"{address}_{k}" for address, run in runs.items() for k in run.realizations},
+        }
+
     def keeping(self) -> dict[str, Keeping]:
         """How each run is carried out, by its address; of studies that share one, the last says so."""
         return {run.address: study.keeping for study in self.studies.values() for run in study.runs}
@@ -136,6 +151,8 @@ def load(config: Mapping[str, Any], schema: Mapping[str, Any], figures: Mapping[
     piece = schema["$defs"]["study"]
     scripts = {name: with_defaults(block, schema["$defs"]["animation"]) for name, block in whole["animations"].items()}
     filmed = {block["study"] for block in scripts.values()}
+    if not whole["allow_large"]:
+        _refuse_too_many(whole["studies"], piece)
     studies = {
         name: _study(name, with_defaults(block, piece), whole["seed"], name in filmed)
         for name, block in whole["studies"].items()
@@ -211,8 +228,38 @@ def _study(name: str, block: Mapping[str, Any], seed: int, filmed: bool) -> Stud
         for scene in _scenes(where, block["grid"], block["scene"])
         for chunk in _chunks(block["realizations"], block["realizations_per_job"])
     ]
+    has = memory_at_hand()
+    for run in runs:
+        _refuse_too_large(where, run, has)
     keeping = Keeping(block["checkpoint_seconds"], block.get("max_seconds", math.inf))
     return Study(name, tuple(block["grid"]), tuple(runs), factors, keeping)
+
+
+def _refuse_too_large(where: str, run: Run, has: int) -> None:
+    """Runs that do not fit into so many bytes of memory, and a disk that never meets another."""
+    n, needs = run.scene.n_particles, memory_of(run)
+    if needs > has:
+        kept = f" and positions at {run.samples['count']} samples" if run.keep_positions else ""
+        allowed = f"allowed is what fits into the memory at hand, {has:.3g} bytes: {n} disks{kept} need {needs:.3g} bytes"
+        raise ConfigError(f"{where}.grid.n_particles", n, allowed)
+    if n == 1 and "time" not in run.until:
+        raise ConfigError(f"{where}.until.time", MISSING, "allowed is a number > 0: a single disk never collides")
+
+
+def _refuse_too_many(studies: Mapping[str, Mapping[str, Any]], schema: Mapping[str, Any]) -> None:
+    """Count the runs before any is made; at r = 1 one run serves all contact times."""
+    numbers = {name: _number_of_runs(with_defaults(block, schema)) for name, block in studies.items()}
+    total, largest = sum(numbers.values()), max(numbers, key=numbers.__getitem__)
+    if total > MOST_RUNS:
+        allowed = f"allowed are {MOST_RUNS} runs; with allow_large: true at the top level, any number"
+        raise ConfigError(f"studies.{largest}", Written(f"{numbers[largest]} runs of {total} in all"), allowed)
+
+
+def _number_of_runs(block: Mapping[str, Any]) -> int:
+    axes = {key: value if isinstance(value, list) else [value] for key, value in block["grid"].items()}
+    times, restitutions = len(axes.pop("contact_time", [0.0])), axes.pop("restitution", [0.0])
+    pairs = sum(1 if r == 1 else times for r in restitutions)
+    return block["realizations"] * pairs * math.prod(map(len, axes.values()))
 
 
 def _chunks(realizations: int, size: int) -> Iterator[tuple[int, ...]]:

@@ -232,3 +232,11 @@ def test_numba_takes_the_folder_even_when_it_was_imported_before(cache, first):
     program = f"{first}\nimport granugas.digest as d\nd.use_kernel_cache()\nimport numba\nprint(numba.config.CACHE_DIR)"
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == str(cache / f"kernels-{digest(sources.KERNELS)[:16]}")
+
+
+def test_a_full_disk_is_passed_over(cache, tmp_path, monkeypatch):
+    room = {cache.parent: sources.ROOM - 1}
+    usage = sources.shutil.disk_usage(tmp_path)
+    free = lambda path: next((size for at, size in room.items() if at in path.parents), usage.free)  # noqa: E731
+    monkeypatch.setattr(sources.shutil, "disk_usage", lambda path: usage._replace(free=free(path)))
+    assert kernel_cache_directory().parent == tmp_path / "home/.cache/granugas"

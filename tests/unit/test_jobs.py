@@ -6,7 +6,12 @@ import sys
 import time
 from pathlib import Path
 
-from granugas.jobs import Job, claim, failures, progress
+import xarray as xr
+
+from granugas import digest
+from granugas.jobs import Job, claim, date_now, failures, progress, remove_damaged, warm_up
+from granugas.scene import Scene
+from granugas.storage.dataset import write
 
 OLD, NOW = 1000.0, 2000.0
 
@@ -108,3 +113,66 @@ def test_the_report_names_what_is_missing_and_why(tmp_path: Path) -> None:
         "Because of:",
         f"  simulate bad: ValueError: too dense (log: {tmp_path}/bad.log)",
     ]
+
+
+def test_a_job_that_was_killed_is_told_as_such(tmp_path: Path) -> None:
+    words = {"": "none", "12:00:00 run: t = 1 s (40%)\n": "12:00:00 run: t = 1 s (40%)"}
+    for text, said in words.items():
+        killed = Job("simulate", (tmp_path / "run.nc",), written(tmp_path / "run.log", text, NOW))
+        assert killed.reason() == f"killed, perhaps for lack of memory; its last words: {said}"
+    failed = Job("simulate", (tmp_path / "run.nc",), written(tmp_path / "run.log", "12:00:00 run: ...\nValueError: no\n", NOW))
+    assert failed.reason() == "ValueError: no"
+
+
+def test_a_log_that_cannot_be_written_is_told_in_a_line(tmp_path: Path) -> None:
+    (tmp_path / "logs").write_text("in the way")
+    done = script("print('never said')", tmp_path / "logs/job.log")
+    assert done.returncode == 1 and done.stderr.count("\n") == 1
+    assert "logs/job.log: cannot be written (" in done.stderr
+
+
+def test_a_damaged_file_that_a_job_meets_is_looked_at_by_the_next_build(tmp_path: Path) -> None:
+    kept = tmp_path / "runs/kept.nc"
+    kept.parent.mkdir()
+    write(xr.Dataset({"tau": 1.0}), kept)
+    broken = written(tmp_path / "runs/broken.nc", "", NOW)
+    for path in (kept, broken):
+        done = script(
+            f"from granugas.storage.damage import DamagedFile as D; raise D({str(path)!r}, 'HDF error')", tmp_path / "log"
+        )
+        assert done.returncode == 1
+        assert (
+            (tmp_path / "log")
+            .read_text()
+            .splitlines()[-1]
+            .endswith(f"{path} is damaged (HDF error); the same command makes it again")
+        )
+    broken.write_bytes(kept.read_bytes()[:-300] + bytes(300))
+    assert remove_damaged([kept, broken, tmp_path / "runs/none.nc"]) == [broken]
+    assert [path.name for path in sorted(kept.parent.iterdir())] == [".broken.nc.suspect", "kept.nc"]
+
+
+def test_files_of_the_future_are_dated_so_that_nothing_old_is_believed(tmp_path: Path) -> None:
+    ahead = time.time() + 9999
+    run, figure = (written(tmp_path / name, "", ahead) for name in ("runs/a.nc", "figures/a.png"))
+    table, old = written(tmp_path / "table.csv", "", ahead), written(tmp_path / "runs/b.nc", "", OLD)
+    assert date_now(tmp_path) == 3 and date_now(tmp_path) == 0
+    assert abs(run.stat().st_mtime - time.time()) < 60
+    assert (figure.stat().st_mtime, table.stat().st_mtime, old.stat().st_mtime) == (0.0, 0.0, OLD)
+
+
+def test_kernels_that_cannot_be_used_are_compiled_again(tmp_path: Path, monkeypatch) -> None:
+    calls = []
+    monkeypatch.setattr("granugas.jobs.forget_kernels", lambda: calls.append("forget"))
+    monkeypatch.setattr(subprocess, "run", lambda *_, **__: calls.append("run") or subprocess.CompletedProcess([], 1))
+    warm_up(tmp_path / "log", [Scene()])
+    assert calls == ["run", "forget", "run"]
+
+
+def test_only_kernels_of_its_own_are_forgotten(tmp_path: Path, monkeypatch) -> None:
+    for name, gone in (("granugas/kernels-1", True), ("elsewhere", False)):
+        folder = tmp_path / name
+        folder.mkdir(parents=True)
+        monkeypatch.setenv("NUMBA_CACHE_DIR", str(folder))
+        digest.forget_kernels()
+        assert folder.exists() is not gone

@@ -11,7 +11,7 @@ import matplotlib as mpl
 import numpy as np
 import pytest
 import xarray as xr
-from made_up import elastic_study
+from made_up import collapse_study, elastic_study
 from matplotlib import style
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import to_rgb
@@ -76,6 +76,8 @@ def needed_by(studies, realizations, contact_times):
         if name.startswith("cluster1999")
         else elastic_study(contact_times, (0.1, 0.2, 0.72), realizations)
         if name.startswith("tc1998_elastic")
+        else collapse_study(int(name.removeprefix("collapse_n")), realizations)
+        if name.startswith("collapse_n")
         else study(realizations, contact_time=contact_times)
         if name == "tc1998_contact_times"
         else study(realizations, n_particles=[100 + index])
@@ -122,6 +124,33 @@ def test_fig08_names_the_sizes_that_there_are():
     assert len(figure.axes[0].collections) == 6
     tau, theory_line = figure.axes[0].lines[-1].get_data()
     np.testing.assert_allclose(theory_line, theory.homogeneous_cooling(tau, 0.4))
+
+
+def test_collapse_threshold_is_found_and_compared():
+    """Runs that collapse below r = .6 within 50 collisions: one r_c for every limit, beside Eq. 22."""
+    figure_file = runpy.run_path(str(FIGURES / "collapse_threshold.py"))
+    made = needed_by(figure_file["STUDIES"], 4, [0.0]) | {"approach": measured("approach")}
+    share, edge, rate = figure_file["draw"](made).axes
+    np.testing.assert_allclose(share.lines[0].get_ydata(), [1, 1, 0, 0])
+    for found in edge.containers:
+        np.testing.assert_allclose(found[0].get_data(), [[42, 378, 1435, 5740, 22960], [0.4] * 5])
+        np.testing.assert_allclose(np.array(found[2][0].get_segments())[:, :, 1], [[0.3, 0.5]] * 5)
+    sizes, estimate = edge.lines[0].get_data()
+    np.testing.assert_allclose(estimate, 1 - theory.collapse_restitution(sizes, 0.226725))
+    x, y = np.concatenate([line.get_xydata() for line in rate.lines[:-1]]).T
+    early = (x < 1e-2) & ~np.isnan(y)
+    assert np.corrcoef(np.log(x[early]), np.log(y[early]))[0, 1] < -0.9
+
+
+def test_rounding_gives_the_exponent_of_the_data():
+    """Copies made up to part by exp(.8 C/N): that is what the legend says."""
+    figure_file = runpy.run_path(str(FIGURES / "rounding.py"))
+    data = measured("rounding").copy()
+    growth = 1e-15 * np.exp(0.8 * data["collisions_per_particle"])
+    data["separation"] = (growth / (1 + growth)).broadcast_like(data["separation"])
+    words = texts(figure_file["draw"]({"rounding": data}))
+    assert all(rf"$r = {r}$: $\lambda = 0.80 \pm 0.00$" in words for r in ("1", "0.9"))
+    assert sum("t_L = 1.2" in word for word in words) == 2
 
 
 def test_fig7_gives_window_exponents_and_intervals():

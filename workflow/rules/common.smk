@@ -7,7 +7,7 @@ import yaml
 
 from granugas import digest, studies
 from granugas.configuration import ConfigError, refuse_duplicate_keys
-from granugas.jobs import Job, claim, failures, tell_progress, warm_up
+from granugas.jobs import Job, claim, date_now, failures, pass_on_termination, remove_damaged, tell_progress, warm_up
 
 HERE = Path(workflow.basedir)
 STARTED = time.time()
@@ -36,6 +36,18 @@ STORAGE = digest.digest(["granugas.storage.*"])
 if STUDIES.left_out and workflow.is_main_process:
     for name, missing in STUDIES.left_out.items():
         print(f"Left out: {name} needs {', '.join(missing)}, not in the configuration.", file=sys.stderr)
+
+
+REMOVED = []
+if workflow.is_main_process and not {"-n", "--dry-run", "--dryrun"} & {*sys.argv}:
+    STORED = {"runs": RUNS, "clusters": CLUSTERS, "studies": STUDIES.studies}
+    STORED["positions"] = [address for address, run in RUNS.items() if run.keep_positions]
+    STORED["experiments"] = {name for of in (DRAWINGS, *MEASURED.values()) for names in of.values() for name in names}
+    REMOVED = remove_damaged(Path(f"{OUTPUT}/{folder}/{name}.nc") for folder, names in STORED.items() for name in names)
+    for path in REMOVED:
+        print(f"{path} was damaged: removed, to be made again.", file=sys.stderr)
+    if number := date_now(OUTPUT):
+        print(f"{number} files in {OUTPUT} are dated in the future (was the clock set back?): corrected.", file=sys.stderr)
 
 
 def datasets(names, experiments):
@@ -67,6 +79,9 @@ def begin(jobs):
         claim(OUTPUT)
     except BlockingIOError:
         sys.exit(f"Another build is writing to {OUTPUT}: wait for its end, or choose another output.")
+    except OSError as error:
+        sys.exit(f"output = {OUTPUT!r}: nothing can be written there ({error.strerror}); choose another folder.")
+    pass_on_termination()
     if any(job.rule.startswith(("equilibrate", "simulate", "clusters")) for job in jobs):
         warm_up(f"{OUTPUT}/logs/warm_up.log", [run.scene for run in RUNS.values()])
     simulations = {job: RUNS[job.outputs[0].stem].cost for job in jobs if job.rule.startswith("simulate")}

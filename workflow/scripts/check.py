@@ -7,8 +7,10 @@ with logged(snakemake.log[0]):
 
     from granugas.checks import findings
     from granugas.storage.dataset import read
+    from granugas.storage.files import replacing
 
     found = [f"{Path(path).stem}: {line}" for path in snakemake.input for line in findings(read(path))]
     if found:
         raise ValueError("; ".join(found))
-    Path(snakemake.output[0]).write_text(f"{len(snakemake.input)} studies, no finding\n")
+    with replacing(snakemake.output[0]) as path:
+        path.write_text(f"{len(snakemake.input)} studies, no finding\n")

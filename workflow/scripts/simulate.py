@@ -5,13 +5,14 @@ from granugas.jobs import logged
 with logged(snakemake.log[0]):
     from dataclasses import asdict
 
-    from granugas.execute import perform
+    from granugas.execute import perform, start_states
     from granugas.storage.checkpoint import checkpoints_of
-    from granugas.storage.dataset import read, write, write_positions
+    from granugas.storage.dataset import read_or_make, write, write_positions
 
     run, output, keeping = snakemake.params.run, snakemake.output, snakemake.params.keeping
     checkpoints = checkpoints_of(run, snakemake.params.checkpoints, snakemake.params.physics, keeping.checkpoint_seconds)
-    data = perform(run, read(snakemake.input.state), checkpoints, keeping.max_seconds)
+    states = read_or_make(snakemake.input.state, lambda: start_states(run))
+    data = perform(run, states, checkpoints, keeping.max_seconds)
     if run.keep_positions:
         write_positions(data, output.positions)
     of_the_run = data.drop_vars([name for name in data if name.startswith("trajectory")])

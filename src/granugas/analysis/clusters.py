@@ -180,7 +180,7 @@ def _find(
     positions: NDArray[np.float64], box: ArrayLike | None, diameter: ArrayLike | None, factors: NDArray[np.float64]
 ) -> Clusters:
     n, dim = positions.shape
-    diameters = np.asarray(1.0 if diameter is None else diameter, dtype=float)
+    diameters = _numbers("diameter", 1.0 if diameter is None else diameter)
     if diameters.shape not in ((), (n,)) or not np.all((diameters > 0) & np.isfinite(diameters)):
         raise ValueError(f"diameter: allowed are a number > 0 m or {n} of them")
     sides = np.full(3, np.inf)
@@ -210,21 +210,28 @@ def _cells(lengths: NDArray[np.float64], reach: float, n: int) -> NDArray[np.int
 
 
 def _positions(positions: ArrayLike) -> NDArray[np.float64]:
-    array = np.ascontiguousarray(positions, dtype=float)
+    array = np.ascontiguousarray(_numbers("positions", positions))
     if array.ndim != 2 or array.shape[1] not in (1, 2, 3) or not len(array):
         raise ValueError(f"positions of shape {array.shape}: allowed is (n, dim) with n >= 1 and dim = 1, 2 or 3")
     return array
 
 
 def _box(box: ArrayLike, dim: int) -> NDArray[np.float64]:
-    sides = np.asarray(box, dtype=float)
+    sides = _numbers("box", box)
     if sides.shape not in ((), (dim,)) or not np.all(sides > 0):
         raise ValueError(f"box = {box}: allowed are {dim} sides > 0 m, inf for an open axis")
     return sides
 
 
 def _factors(distance_factors: Sequence[float]) -> NDArray[np.float64]:
-    factors = np.unique(np.atleast_1d(np.asarray(distance_factors, dtype=float)))
+    factors = np.unique(np.atleast_1d(_numbers("distance_factors", distance_factors)))
     if not factors.size or not np.all((factors > 0) & np.isfinite(factors)):
         raise ValueError(f"distance_factors = {distance_factors}: allowed are numbers > 0, at least one")
     return factors
+
+
+def _numbers(name: str, values: ArrayLike) -> NDArray[np.float64]:
+    try:
+        return np.asarray(values, dtype=float)
+    except (TypeError, ValueError) as error:
+        raise ValueError(f"{name} = {values!r}: allowed are numbers") from error

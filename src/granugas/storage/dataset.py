@@ -5,13 +5,15 @@ The rest of what storage offers can be had from here too: the table of variables
 
 import hashlib
 import json
-from collections.abc import Iterable, Iterator, Mapping
+import logging
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
+from granugas.storage.damage import DamagedFile, reading, seal
 from granugas.storage.files import encoding, labels, replacing
 from granugas.storage.pooling import pool
 from granugas.storage.positions import read_positions, write_positions
@@ -27,6 +29,7 @@ __all__ = [
     "pool",
     "read",
     "read_by_name",
+    "read_or_make",
     "read_positions",
     "write",
     "write_positions",
@@ -37,6 +40,9 @@ NOT_CONTENT = ("wall_time", "cpu_", "provenance", "content_sha256", "history", "
 
 BLOCK = 2**20
 """Numbers that are digested at a time."""
+
+
+logger = logging.getLogger("granugas")
 
 
 def content_sha256(dataset: xr.Dataset) -> str:
@@ -78,6 +84,7 @@ def write(dataset: xr.Dataset, path: str | Path, parameters: Mapping[str, Any] |
         described.attrs["provenance"] = json.dumps(provenance(asked), sort_keys=True)
     with replacing(path) as temporary:
         described.to_netcdf(temporary, engine="netcdf4", encoding=encoding(described))
+        seal(temporary)
 
 
 def read(path: str | Path) -> xr.Dataset:
@@ -85,13 +92,34 @@ def read(path: str | Path) -> xr.Dataset:
 
     Raises:
         FileNotFoundError: no such file.
+        DamagedFile: it is not what was written.
     """
-    return xr.load_dataset(path, engine="netcdf4", decode_times=False)
+    with reading(path):
+        return xr.load_dataset(path, engine="netcdf4", decode_times=False)
+
+
+def read_or_make(path: str | Path, make: Callable[[], xr.Dataset]) -> xr.Dataset:
+    """The dataset of a file; where it is damaged it is made and written again, and the log says so.
+
+    Raises:
+        FileNotFoundError: no such file.
+    """
+    try:
+        return read(path)
+    except DamagedFile as error:
+        logger.warning("%s: it is damaged and made again", error.path)
+        write(make(), path)
+        return read(path)
 
 
 def read_by_name(paths: Iterable[str | Path]) -> dict[str, xr.Dataset]:
-    """The datasets of files by the files' names, those of studies and experiments: opened, read where they are used."""
-    return {Path(path).stem: xr.open_dataset(path, engine="netcdf4", decode_times=False) for path in paths}
+    """The datasets of files by the files' names, those of studies and experiments: checked, then read where they are used.
+
+    Raises:
+        FileNotFoundError: no such file.
+        DamagedFile: as `read` says.
+    """
+    return {Path(path).stem: read_positions(path) for path in paths}
 
 
 def load_study(path: str | Path) -> xr.Dataset:

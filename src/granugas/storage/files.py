@@ -1,8 +1,9 @@
 """What all files have in common: whole or not there, chunks that suit a reader, labels as CF wants them."""
 
 import os
+import shutil
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from importlib.metadata import version
 from math import prod
 from pathlib import Path
@@ -19,15 +20,26 @@ def replacing(path: str | Path) -> Iterator[Path]:
     """A temporary path beside `path`, which becomes `path` when all went well and is removed when not.
 
     Nobody ever sees half a file, and two processes that write the same one do not meet.
+
+    Raises:
+        OSError: it cannot be written; says which file, why, and how much room there is.
     """
     path = Path(path)
-    path.parent.mkdir(parents=True, exist_ok=True)
     temporary = path.with_name(f".{path.name}.{os.getpid()}")
     try:
+        path.parent.mkdir(parents=True, exist_ok=True)
         yield temporary
         os.replace(temporary, path)
+    except (OSError, RuntimeError) as error:  # netCDF's errors are of both kinds
+        raise OSError(f"{path}: not written ({error}; {_free(path) / 1e6:.0f} MB are free)") from error
     finally:
-        temporary.unlink(missing_ok=True)
+        with suppress(OSError):
+            temporary.unlink(missing_ok=True)
+
+
+def _free(path: Path) -> int:
+    """Bytes that are free where a file is to be."""
+    return shutil.disk_usage(next(folder for folder in path.absolute().parents if folder.exists())).free
 
 
 def chunk_sizes(shape: Sequence[int]) -> tuple[int, ...]:

@@ -11,6 +11,7 @@ import netCDF4
 import numpy as np
 import xarray as xr
 
+from granugas.storage.damage import reading, seal
 from granugas.storage.files import chunk_sizes, encoding, labels, replacing
 from granugas.storage.variables import VARIABLES, describe
 
@@ -23,7 +24,7 @@ VELOCITY_BITS = 10
 
 
 def write_positions(dataset: xr.Dataset, path: str | Path) -> None:
-    """Write `trajectory`, its motion, coordinates and all global attributes, 4 bytes a number, whole or not at all.
+    """Write `trajectory`, its motion, coordinates and the global attributes, 4 bytes a number, whole or not at all.
 
     A position is rounded down to a multiple of L / (2^32 - 1), L the longer side of the box; CF readers find that as
     `scale_factor`. It is packed time step by time step, so that no second copy is in memory.
@@ -40,7 +41,7 @@ def write_positions(dataset: xr.Dataset, path: str | Path) -> None:
     sides = np.array([dataset.attrs[f"box_{axis}"] for axis in dataset["axis"].values])
     names = [name for name in dataset.variables if name in trajectory.coords or name == "sampling_time"]
     header = describe(dataset[names])
-    header.attrs = labels() | dataset.attrs
+    header.attrs = labels() | {name: value for name, value in dataset.attrs.items() if name != "content_sha256"}
     scale = sides.max() / LEVELS
     attributes = VARIABLES["trajectory"].attributes() | {"scale_factor": scale}
     with replacing(path) as temporary:
@@ -58,6 +59,7 @@ def write_positions(dataset: xr.Dataset, path: str | Path) -> None:
                 written = _variable(file, dataset[name], MOTION[name], **rounding)
                 written.setncatts(VARIABLES[name].attributes())
                 written[:] = dataset[name].values
+        seal(temporary)
 
 
 def read_positions(path: str | Path) -> xr.Dataset:
@@ -69,8 +71,10 @@ def read_positions(path: str | Path) -> xr.Dataset:
 
     Raises:
         FileNotFoundError: no such file.
+        DamagedFile: it is not what was written.
     """
-    return xr.open_dataset(path, engine="netcdf4", decode_times=False)
+    with reading(path):
+        return xr.open_dataset(path, engine="netcdf4", decode_times=False)
 
 
 def _variable(file: netCDF4.Dataset, data: xr.DataArray, kind: str, **options: Any) -> netCDF4.Variable:

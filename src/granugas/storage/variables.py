@@ -136,6 +136,7 @@ VARIABLES = {
     "events": Variable("1", "collisions of pairs that were carried out since t = 0", "C"),
     "stop_reason": Variable(None, "what ended the run"),
     "stop_time": Variable("s", "time at which the run ended", "t"),
+    "warnings": Variable(None, "what to doubt about the run, one line each"),
     # two particles that meet, and one ball on a plate; energies and forces per mass
     "experiment_time": Variable("s", "time since the experiment began", "t"),
     "soft_position": Variable("m", "positions of two soft particles in one dimension", "x_i", "A Fig. 1"),
@@ -188,6 +189,17 @@ VARIABLES = {
     "pressure_series": Variable("1", "pressure of one test volume in equal steps, by E/V of the box", "P V/E", "A section 5.1"),
     "record_begin": Variable("s", "time since t = 0 at which the record begins", "t"),
     "record_length": Variable("s", "length of the record"),
+    # the last collisions before an inelastic collapse
+    "collisions_left": Variable("1", "collisions of the disks that take part in the collapse, counted back from the last"),
+    "time_left": Variable("s", "time that is left to the inelastic collapse", "t* - t", "A section 2.1"),
+    "disks_involved": Variable("1", "number of disks that take part in the collapse"),
+    # trajectories that begin alike
+    "change": Variable(None, "what a copy differs in at the start: last bit of the positions, or order of the particles"),
+    "copy": Variable("1", "number of the copy"),
+    "stop": Variable("1", "number of the look"),
+    "separation": Variable("1", "distance of a copy from its run, root mean square over the particles, by the diameter"),
+    "copy_kinetic_energy": Variable("1", "kinetic energy of a copy by its initial value", "K = E/E(0)"),
+    "copy_collisions_per_particle": Variable("1", "collisions of a particle in a copy since t = 0", "C/N"),
 }
 
 

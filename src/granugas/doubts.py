@@ -1,0 +1,97 @@
+"""What a physicist would doubt about a run: one line each, said once in the log, kept in the attribute `warnings`.
+
+The lines follow from the scene, its start state and the run, so that equal runs have equal lines.
+"""
+
+import logging
+from collections.abc import Iterable, Mapping, Sequence
+from functools import cache
+from typing import Any
+
+import xarray as xr
+
+from granugas.analysis.enskog import enskog_rate
+from granugas.scene import Scene
+
+RELAXED = 10.0
+"""Collisions per particle after which velocities that were uniformly distributed have the kurtosis of Maxwellian ones within
+2 % (measured up to nu = .6)."""
+
+FEWEST_CELLS = 3
+"""In a box of fewer in one direction, a disk is a neighbour of the images of its neighbours."""
+
+FEWEST_FOR_CLUSTERS = 100
+"""A box of fewer disks is less than ten mean distances wide: a cluster of ten disks meets its own image."""
+
+logger = logging.getLogger("granugas")
+
+
+def doubts_of_start(n_particles: int, start: Mapping[str, Any]) -> list[str]:
+    """Whether a start state, with the attributes that `equilibrate` gives it, is in equilibrium."""
+    collided = float(start["equilibration_collisions_per_particle"])
+    if n_particles == 1:
+        return []
+    if not start["equilibration_reached"]:
+        signs = ", ".join(f"{sign} {start[f'equilibration_{sign}']:.4g}" for sign in ("kurtosis", "anisotropy", "order"))
+        return [f"start state: not in equilibrium after {collided:g} collisions per particle ({signs})"]
+    if collided < RELAXED:
+        return [
+            f"start state: equilibrated for {collided:.3g} collisions per particle, velocities need about {RELAXED:g} to "
+            "become Maxwellian"
+        ]
+    return []
+
+
+def doubts_before(scene: Scene, start: Mapping[str, Any], cells: Sequence[int], keep_positions: bool) -> list[str]:
+    """What is doubtful already at t = 0.
+
+    Args:
+        scene: what is simulated; at r = 1 any t_c will do, it is only looked at.
+        start: attributes of the start state.
+        cells: of the engine, along x and y.
+        keep_positions: whether there will be positions for a cluster analysis.
+    """
+    n, lines = scene.n_particles, doubts_of_start(scene.n_particles, start)
+    longest = max(scene.contact_times) if scene.restitution < 1 else 0.0
+    flight = 1 / float(enskog_rate(scene.area_fraction, scene.velocity_half_width**2 / 3, scene.diameter))
+    if longest > flight and n > 1:
+        lines.append(
+            f"contact_time = {longest:g} s is longer than the mean time between collisions at t = 0, {flight:.4g} s "
+            "(A Eq. 19): most collisions are elastic from the start"
+        )
+    if min(cells) < FEWEST_CELLS:
+        sides = " x ".join(f"{float(start[side]) / scene.diameter:.3g}" for side in ("box_x", "box_y"))
+        lines.append(
+            f"box of {sides} diameters in {cells[0]} x {cells[1]} cells: with fewer than {FEWEST_CELLS} in a direction "
+            "disks meet several images of one neighbour"
+        )
+    if keep_positions and n < FEWEST_FOR_CLUSTERS:
+        lines.append(
+            f"n_particles = {n}: too few for a cluster analysis, with fewer than {FEWEST_FOR_CLUSTERS} a cluster soon meets "
+            "its own image"
+        )
+    return lines
+
+
+def doubts_after(run: xr.Dataset) -> list[str]:
+    """What lies beyond the end of a run that has `stop_time` and `stop_reason`."""
+    end = f"beyond the end of the run at t = {run['stop_time'].item():.6g} s ({run['stop_reason'].item()})"
+    samples, snapshots = run["kinetic_energy"].isnull(), run["velocity"].isnull().any(["particle", "axis"])
+    lines = []
+    if samples.any():
+        lines.append(f"samples: {int(samples.sum())} of {samples.size} lie {end} and are NaN")
+    if snapshots.any():
+        times = ", ".join(f"{time:g}" for time in run["snapshot"].values[snapshots])
+        lines.append(f"snapshots: those at {times} s lie {end} and are NaN")
+    return lines
+
+
+def tell(lines: Iterable[str]) -> None:
+    """Say each line once in the log: realizations that one job runs share their doubts."""
+    for line in lines:
+        _say(line)
+
+
+@cache
+def _say(line: str) -> None:
+    logger.warning("%s", line)

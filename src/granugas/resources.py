@@ -1,0 +1,44 @@
+"""What a run needs of the machine, estimated before it starts, and what the machine has."""
+
+import os
+import resource
+from contextlib import suppress
+from pathlib import Path
+
+from granugas.runs import Run
+
+ENGINE = 260
+"""Bytes a disk of the engine's tables, and of the states that it takes and gives back (measured: 130, and 56 a state)."""
+
+START = 48
+"""Bytes a disk of a start state."""
+
+SNAPSHOT, WINDOW = 56, 8
+"""Bytes a disk of a snapshot, and of the count of collisions before it."""
+
+FRAME, MOTION = 16, 12
+"""Bytes a disk of the positions at a sampling time, and of the motion that an animation wants."""
+
+SAMPLE, OF_CONTACT_TIME = 240, 40
+"""Bytes a sample, measured: what a run writes down and where it stops; and more for each contact time."""
+
+
+def memory_of(run: Run) -> int:
+    """Bytes that a run needs at most: its realizations one after the other, then all of them as one dataset."""
+    n, samples, realizations = run.scene.n_particles, run.samples["count"] + 1, len(run.realizations)
+    frame = FRAME * run.keep_positions + MOTION * run.keep_motion
+    of_disks = n * (8 + frame * samples + (SNAPSHOT + WINDOW) * len(run.snapshots))
+    kept = of_disks + samples * (SAMPLE + OF_CONTACT_TIME * len(run.scene.contact_times))
+    copies = 2 if realizations > 1 else 1
+    return n * (ENGINE + START * realizations) + kept * realizations * copies
+
+
+def memory_at_hand() -> int:
+    """Bytes that a process may have: of the machine, or less where a limit is set (of the container, of the shell)."""
+    limits = [os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")]
+    of_shell = resource.getrlimit(resource.RLIMIT_AS)[0]
+    if of_shell != resource.RLIM_INFINITY:
+        limits.append(of_shell)
+    with suppress(OSError, ValueError):  # no such file, or "max"
+        limits.append(int(Path("/sys/fs/cgroup/memory.max").read_text()))
+    return min(limits)

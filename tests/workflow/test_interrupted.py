@@ -1,0 +1,342 @@
+"""Builds that are killed, asked to end, cut off or damaged: the same command again gives what an undisturbed build gives."""
+
+import os
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+from workflow.project import Project, copy_of_sources
+
+from granugas.storage.dataset import content_sha256, read
+
+KINDS = ("job killed", "all killed", "main process killed", "SIGTERM to a job", "SIGTERM", "Ctrl-C")
+FOLDERS = ("states", "runs", "positions", "clusters", "studies")
+TARGET = ("--", "results/studies/small.nc")
+STUDY = {
+    "grid": {"n_particles": 100, "area_fraction": 0.3, "restitution": 1.0, "contact_time": 1.0e-5},
+    "until": {"collisions_per_particle": 60_000},
+    "samples": {"count": 10},
+    "distance_factors": [1.05, 1.1],
+    "checkpoint_seconds": 0.2,
+}
+SEED = int(os.environ.get("INTERRUPTION_SEED", random.SystemRandom().randrange(10**6)))
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory: pytest.TempPathFactory) -> Project:
+    """A study that was built undisturbed, from a copy of the sources."""
+    folder = tmp_path_factory.mktemp("whole")
+    for name in ("sources", "work"):
+        (folder / name).mkdir()
+    project = Project(copy_of_sources(folder / "sources"), folder / "work")
+    project.configure(studies={"small": STUDY}, figures=["study_small"])
+    project.build(*TARGET)
+    return project
+
+
+@pytest.fixture
+def fresh(whole: Project, tmp_path: Path) -> Project:
+    """The same sources and configuration, nothing built."""
+    shutil.copytree(whole.folder / "config", tmp_path / "config")
+    return Project(whole.sources, tmp_path)
+
+
+@pytest.fixture
+def copied(whole: Project, tmp_path: Path) -> Project:
+    """The same, built."""
+    shutil.copytree(whole.folder, tmp_path, dirs_exist_ok=True)
+    return Project(whole.sources, tmp_path)
+
+
+def contents(project: Project) -> dict[str, str]:
+    """What all datasets say; half-written ones cannot be read."""
+    paths = [path for folder in FOLDERS for path in project.folder.glob(f"results/{folder}/*.nc")]
+    return {path.parent.name + "/" + path.name: content_sha256(read(path)) for path in paths}
+
+
+def the_file(project: Project, folder: str) -> Path:
+    (path,) = project.folder.glob(f"results/{folder}/*.nc")
+    return path
+
+
+def log_of_run(project: Project) -> str:
+    return "".join(path.read_text() for path in project.folder.glob("results/logs/simulate/*.log"))
+
+
+def start(project: Project, *words: object) -> subprocess.Popen[bytes]:
+    with open(project.folder / "said.txt", "w") as said:
+        command = project.command(*(words or TARGET))
+        return subprocess.Popen(
+            command, env=project.environment, cwd=project.folder, stdout=said, stderr=said, start_new_session=True
+        )
+
+
+def jobs_of(pid: int) -> list[int]:
+    try:
+        return [int(job) for path in Path(f"/proc/{pid}/task").glob("*/children") for job in path.read_text().split()]
+    except OSError:
+        return []
+
+
+def wait_for(condition: Callable[[], object], seconds: float = 300.0) -> None:
+    end = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < end, "waited in vain"
+        time.sleep(0.02)
+
+
+def interrupt(build: subprocess.Popen[bytes], kind: str, rng: random.Random) -> None:
+    """Do it, and wait for the end of the build."""
+    if kind.endswith("a job") or kind.startswith("job"):
+        wait_for(lambda: jobs_of(build.pid) or build.poll() is not None)
+        for job in rng.sample(jobs := jobs_of(build.pid), min(1, len(jobs))):
+            os.kill(job, signal.SIGKILL if kind == "job killed" else signal.SIGTERM)
+    elif build.poll() is None:
+        if kind == "all killed":
+            os.killpg(build.pid, signal.SIGKILL)
+        elif kind == "Ctrl-C":
+            os.killpg(build.pid, signal.SIGINT)
+        else:
+            build.send_signal(signal.SIGKILL if kind == "main process killed" else signal.SIGTERM)
+    build.wait(300)
+
+
+@pytest.mark.timeout(1800)
+def test_interrupted_five_times_and_more_it_ends_with_the_same_files(whole: Project, fresh: Project) -> None:
+    rng, resumed, cut = random.Random(SEED), 0, 0
+    print(f"INTERRUPTION_SEED={SEED}")
+    for kind in rng.sample(KINDS, len(KINDS)):
+        before = {path: path.stat().st_mtime for path in fresh.folder.glob("results/checkpoints/*.npz")}
+        build = start(fresh)
+
+        def has_saved(before: dict[Path, float] = before, build: subprocess.Popen[bytes] = build) -> bool:
+            there = {path: path.stat().st_mtime for path in fresh.folder.glob("results/checkpoints/*.npz")}
+            return there.items() - before.items() or build.poll() is not None
+
+        wait_for(has_saved)
+        time.sleep(rng.uniform(0, 0.3))
+        cut += build.poll() is None
+        interrupt(build, kind, rng)
+        resumed += "goes on from a checkpoint" in log_of_run(fresh)
+        assert contents(fresh).items() <= contents(whole).items(), kind
+        assert "Traceback" not in (fresh.folder / "said.txt").read_text(), kind
+    fresh.build(*TARGET)
+    assert contents(fresh) == contents(whole)
+    assert cut >= 5 and resumed >= 4
+    left = [path.name for path in fresh.folder.glob("results/*/.*") if path.name != ".lock"]
+    assert left == [] and list(fresh.folder.glob("results/checkpoints/*")) == []
+
+
+@pytest.mark.full
+@pytest.mark.timeout(7200)
+def test_interrupted_at_any_moment_the_same_command_ends_with_the_same_files(whole: Project, fresh: Project) -> None:
+    rng = random.Random(SEED)
+    print(f"INTERRUPTION_SEED={SEED}")
+    begun = time.monotonic()
+    fresh.build(*TARGET)
+    duration = time.monotonic() - begun
+    cut = dict.fromkeys(KINDS, 0)
+    while sum(cut.values()) < 102:
+        kind = min(cut, key=cut.__getitem__)
+        shutil.rmtree(fresh.folder / "results")
+        build = start(fresh)
+        time.sleep(rng.uniform(0, 0.9 * duration))
+        cut[kind] += build.poll() is None
+        interrupt(build, kind, rng)
+        fresh.build(*TARGET)
+        assert contents(fresh) == contents(whole), kind
+    print(cut)
+
+
+def test_cut_off_files_and_dates_of_the_future_are_repaired_by_the_same_call(whole: Project, copied: Project) -> None:
+    for folder in ("states", "runs", "studies"):
+        path = the_file(copied, folder)
+        os.truncate(path, path.stat().st_size // 2)
+    tomorrow = time.time() + 86400
+    os.utime(the_file(copied, "clusters"), (tomorrow, tomorrow))
+    said = copied.build(*TARGET)
+    for folder in ("runs", "studies"):
+        assert f"{the_file(copied, folder).relative_to(copied.folder)} was damaged: removed, to be made again." in said
+    assert "it is damaged and made again" in said and "1 files in results are dated in the future" in said
+    assert "Traceback" not in said
+    assert contents(copied) == contents(whole)
+    assert copied.jobs(*TARGET) == {}
+
+
+def flip(path: Path) -> None:
+    """Another byte in the middle of the file, which is as long as before."""
+    content = bytearray(path.read_bytes())
+    for place in range(len(content) // 3, len(content) // 3 + 4000):
+        content[place] ^= 0xFF
+    path.write_bytes(content)
+
+
+@pytest.mark.full
+@pytest.mark.parametrize("folder", FOLDERS)
+def test_a_garbled_file_is_told_and_repaired(whole: Project, copied: Project, folder: str) -> None:
+    reader = {"states": "simulate", "runs": "pool", "positions": "clusters", "clusters": "pool", "studies": "figures"}[folder]
+    made = {"simulate": "runs", "clusters": "clusters", "pool": "studies"}.get(reader)
+    flip(the_file(copied, folder))
+    for name in {made, "studies"} - {folder, None}:
+        the_file(copied, name).unlink()
+    done = copied.snakemake("--", "results/figures/study_small.png", "results/studies/small.nc")
+    assert "Traceback" not in done.stdout
+    if folder != "states":  # a run makes its start state again itself
+        assert done.returncode == 1
+        reasons = done.stdout.partition("Because of:")[2]
+        assert f"{the_file(copied, folder).relative_to(copied.folder)} is damaged" in reasons
+        assert "the same command makes it again" in reasons
+    copied.build("--", "results/figures/study_small.png", "results/studies/small.nc")
+    assert contents(copied) == contents(whole)
+
+
+@pytest.mark.full
+@pytest.mark.parametrize("damage", ["garbled", "another version"])
+def test_a_checkpoint_that_cannot_be_used_is_told_and_not_taken(whole: Project, fresh: Project, damage: str) -> None:
+    build = start(fresh)
+    wait_for(lambda: list(fresh.folder.glob("results/checkpoints/*.npz")))
+    interrupt(build, "SIGTERM", random.Random(0))
+    (path,) = fresh.folder.glob("results/checkpoints/*.npz")
+    if damage == "garbled":
+        flip(path)
+        fresh.build(*TARGET)
+        assert "it is damaged" in log_of_run(fresh)
+    else:
+        (fresh.folder / "sources").mkdir()
+        other = Project(copy_of_sources(fresh.folder / "sources"), fresh.folder)
+        with other.edited("src/granugas/dynamics/events/collisions.py", "\nimport", "\nELSE = 1\nimport"):
+            other.build(*TARGET)
+        assert "it belongs to another version of the program" in log_of_run(fresh)
+    assert "goes on from a checkpoint" not in log_of_run(fresh)
+    assert contents(fresh) == contents(whole)
+
+
+@pytest.mark.full
+def test_a_limit_of_time_keeps_what_there_is_and_a_higher_one_goes_on(whole: Project, fresh: Project) -> None:
+    limited = {"studies": {"small": STUDY | {"max_seconds": 0.5}}, "figures": ["study_small"]}
+    fresh.configure(**limited)
+    said = fresh.build(*TARGET)
+    assert "max_seconds reached at t = " in said
+    data = read(fresh.folder / "results/studies/small.nc")
+    assert set(data["stop_reason"].values.ravel()) == {"max_seconds"}
+    assert bool(data["kinetic_energy"].isel(time=-1).isnull().all()) and not bool(data["kinetic_energy"].isel(time=0).isnull())
+    for folder in ("runs", "studies"):
+        the_file(fresh, folder).unlink()
+    shutil.copytree(whole.folder / "config", fresh.folder / "config", dirs_exist_ok=True)
+    fresh.build(*TARGET)
+    assert "goes on from a checkpoint" in log_of_run(fresh)
+    assert contents(fresh) == contents(whole)
+
+
+@pytest.mark.full
+def test_a_number_of_collisions_ends_a_run_with_what_it_has(fresh: Project) -> None:
+    fresh.configure(studies={"small": STUDY | {"max_collisions": 1234}}, figures=["study_small"])
+    assert "max_collisions reached at t = " in fresh.build(*TARGET)
+    data = read(fresh.folder / "results/studies/small.nc")
+    assert data["events"].item() == 1234 and set(data["stop_reason"].values.ravel()) == {"max_collisions"}
+    assert bool(data["kinetic_energy"].isel(time=-1).isnull().all())
+
+
+GREEDY = """
+import resource
+
+def with_little_memory(scene, *arguments, **options):
+    if scene.n_particles == 100_000:
+        resource.setrlimit(resource.RLIMIT_AS, (2**30, 2**30))
+        np.ones(2**28)
+    return cool(scene, *arguments, **options)
+
+
+cool, simulate = simulate, with_little_memory
+"""
+
+
+@pytest.mark.full
+@pytest.mark.parametrize("end", ["no memory", "killed"])
+def test_a_job_without_memory_says_so_and_the_others_go_on(editable_copy: Project, end: str) -> None:
+    doom = GREEDY if end == "no memory" else GREEDY.replace("np.ones(2**28)", "import os; os.kill(os.getpid(), 9)")
+    with open(editable_copy.sources / "src/granugas/simulate.py", "a") as source:
+        source.write(doom)
+    grid, short = STUDY["grid"], {"until": {"collisions_per_particle": 2}, "equilibration": {"collisions_per_particle": 1}}
+    studies = {"sound": STUDY | {"grid": grid} | short, "greedy": STUDY | {"grid": grid | {"n_particles": 100_000}} | short}
+    editable_copy.configure(studies=studies, figures=["study_sound", "study_greedy"])
+    done = editable_copy.snakemake("--", "results/studies/sound.nc", "results/studies/greedy.nc")
+    assert done.returncode == 1 and "Traceback" not in done.stdout
+    assert (editable_copy.folder / "results/studies/sound.nc").exists()
+    reasons = done.stdout.partition("Because of:")[2]
+    assert ("Unable to allocate 2.00 GiB" if end == "no memory" else "killed, perhaps for lack of memory") in reasons
+
+
+def in_a_namespace(project: Project, script: str) -> subprocess.CompletedProcess[str]:
+    """Run a shell script that may mount file systems, which nobody else sees and which end with it."""
+    if subprocess.run(["unshare", "-rm", "mount", "-t", "tmpfs", "x", "/mnt"], capture_output=True).returncode:
+        pytest.skip("no file systems can be mounted here (unshare -rm)")
+    command = " ".join(map(str, project.command(*TARGET)))
+    script = script.replace("BUILD", f"{command} 2>&1")
+    return subprocess.run(
+        ["unshare", "-rm", "sh", "-c", script], cwd=project.folder, env=project.environment, capture_output=True, text=True
+    )
+
+
+@pytest.mark.full
+def test_a_full_disk_is_told_and_more_room_repairs_it(whole: Project, fresh: Project) -> None:
+    (fresh.folder / "results").mkdir()
+    mounted = "mount -t tmpfs -o size=60k x results; "
+    done = in_a_namespace(fresh, mounted + "BUILD; df results; mount -o remount,size=50m results; BUILD; cp -r results copy")
+    first, _, second = done.stdout.partition("tmpfs" if "tmpfs" in done.stdout else "x ")
+    assert "not written" in first and "0 MB are free" in first and "Traceback" not in done.stdout
+    assert "Finished jobid" in second
+    os.rename(fresh.folder / "copy", fresh.folder / "kept")
+    (fresh.folder / "results").rmdir()
+    (fresh.folder / "kept").rename(fresh.folder / "results")
+    assert contents(fresh) == contents(whole)
+
+
+@pytest.mark.full
+def test_a_folder_that_is_read_only_is_told_in_a_line(fresh: Project) -> None:
+    (fresh.folder / "results").mkdir()
+    done = in_a_namespace(fresh, "mount -t tmpfs x results; mount -o remount,ro results; BUILD")
+    assert done.returncode == 1 and "Traceback" not in done.stdout
+    assert "output = 'results': nothing can be written there (Read-only file system)" in done.stdout
+
+
+COMPILE = """
+import granugas as gg
+{more}
+gg.warm_up([gg.Scene(16, 0.2, restitution=0.9, contact_time=1e-5)])
+"""
+
+
+@pytest.fixture
+def cold(whole: Project, tmp_path: Path) -> Iterator[dict[str, str]]:
+    """The environment of a user who has compiled nothing yet."""
+    yield {k: v for k, v in whole.environment.items() if k != "NUMBA_CACHE_DIR"} | {"XDG_CACHE_HOME": str(tmp_path / "cache")}
+
+
+@pytest.mark.full
+@pytest.mark.timeout(7200)
+def test_many_processes_fill_a_cold_cache_at_once(cold: dict[str, str], tmp_path: Path) -> None:
+    for _ in range(20):
+        shutil.rmtree(tmp_path / "cache", ignore_errors=True)
+        jobs = [subprocess.Popen([sys.executable, "-c", COMPILE.format(more="")], env=cold, stderr=-1) for _ in range(4)]
+        for job in jobs:
+            assert job.communicate()[1] == b"" and job.returncode == 0
+
+
+@pytest.mark.full
+@pytest.mark.parametrize("what", ["nbi", "nbc"])
+def test_damaged_kernels_are_compiled_again(whole: Project, fresh: Project, what: str) -> None:
+    cache = fresh.folder / "cache"
+    environment = {k: v for k, v in whole.environment.items() if k != "NUMBA_CACHE_DIR"} | {"XDG_CACHE_HOME": str(cache)}
+    subprocess.run([sys.executable, "-c", COMPILE.format(more="")], env=environment, check=True)
+    for path in cache.rglob(f"*.{what}"):
+        os.truncate(path, path.stat().st_size // 2)
+    done = subprocess.run(fresh.command(*TARGET), env=environment, cwd=fresh.folder, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert contents(fresh) == contents(whole)
