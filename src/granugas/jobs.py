@@ -60,7 +60,7 @@ def logged(path: str | Path) -> Iterator[None]:
 
     Standard output, standard error and logging are sent to the file, so an error ends the log with its traceback, the
     reason in the last line. The package's warnings go to the terminal as well. A damaged file that it meets is marked, for
-    the next build to look at (`remove_damaged`).
+    the next build to look at (`damaged`).
     """
     if sys.platform == "linux":
         ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
@@ -101,14 +101,9 @@ def claim(output: str | Path) -> None:
             path.unlink()
 
 
-def remove_damaged(paths: Iterable[Path]) -> list[Path]:
-    """Remove those of the netCDF files that are there and cannot be trusted: marked ones are read in full, others seen at a
-    glance. Which they were.
-    """
-    removed = [path for path in paths if path.exists() and not (is_complete(path) and _is_as_written(path))]
-    for path in removed:
-        path.unlink(missing_ok=True)
-    return removed
+def damaged(paths: Iterable[Path]) -> list[Path]:
+    """Those of the netCDF files that are there and cannot be trusted; marked ones are read in full, others seen at a glance."""
+    return [path for path in paths if path.exists() and not (is_complete(path) and _is_as_written(path))]
 
 
 def date_now(output: str | Path) -> int:

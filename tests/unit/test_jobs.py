@@ -9,7 +9,7 @@ from pathlib import Path
 import xarray as xr
 
 from granugas import digest
-from granugas.jobs import Job, claim, date_now, failures, progress, remove_damaged, warm_up
+from granugas.jobs import Job, claim, damaged, date_now, failures, progress, warm_up
 from granugas.scene import Scene
 from granugas.storage.dataset import write
 
@@ -148,8 +148,8 @@ def test_a_damaged_file_that_a_job_meets_is_looked_at_by_the_next_build(tmp_path
             .endswith(f"{path} is damaged (HDF error); the same command makes it again")
         )
     broken.write_bytes(kept.read_bytes()[:-300] + bytes(300))
-    assert remove_damaged([kept, broken, tmp_path / "runs/none.nc"]) == [broken]
-    assert [path.name for path in sorted(kept.parent.iterdir())] == [".broken.nc.suspect", "kept.nc"]
+    assert damaged([kept, broken, tmp_path / "runs/none.nc"]) == [broken]
+    assert [path.name for path in sorted(kept.parent.iterdir())] == [".broken.nc.suspect", "broken.nc", "kept.nc"]
 
 
 def test_files_of_the_future_are_dated_so_that_nothing_old_is_believed(tmp_path: Path) -> None:

@@ -163,7 +163,8 @@ def test_cut_off_files_and_dates_of_the_future_are_repaired_by_the_same_call(who
     said = copied.build(*TARGET)
     for folder in ("runs", "studies"):
         assert f"{the_file(copied, folder).relative_to(copied.folder)} was damaged: removed, to be made again." in said
-    assert "it is damaged and made again" in said and "1 files in results are dated in the future" in said
+    assert "is damaged: a run that needs it makes it again." in said and "it is damaged and made again" in said
+    assert "1 files in results are dated in the future" in said
     assert "Traceback" not in said
     assert contents(copied) == contents(whole)
     assert copied.jobs(*TARGET) == {}

@@ -1,4 +1,5 @@
 # The checked configuration, and what the rules of the other files look up in it. No rules here.
+import os
 import sys
 import time
 from pathlib import Path
@@ -7,7 +8,7 @@ import yaml
 
 from granugas import digest, studies
 from granugas.configuration import ConfigError, refuse_duplicate_keys
-from granugas.jobs import Job, claim, date_now, failures, pass_on_termination, remove_damaged, tell_progress, warm_up
+from granugas.jobs import Job, claim, damaged, date_now, failures, pass_on_termination, tell_progress, warm_up
 
 HERE = Path(workflow.basedir)
 STARTED = time.time()
@@ -43,9 +44,13 @@ if workflow.is_main_process and not {"-n", "--dry-run", "--dryrun"} & {*sys.argv
     STORED = {"runs": RUNS, "clusters": CLUSTERS, "studies": STUDIES.studies}
     STORED["positions"] = [address for address, run in RUNS.items() if run.keep_positions]
     STORED["experiments"] = {name for of in (DRAWINGS, *MEASURED.values()) for names in of.values() for name in names}
-    REMOVED = remove_damaged(Path(f"{OUTPUT}/{folder}/{name}.nc") for folder, names in STORED.items() for name in names)
+    REMOVED = damaged(Path(f"{OUTPUT}/{folder}/{name}.nc") for folder, names in STORED.items() for name in names)
     for path in REMOVED:
+        path.unlink(missing_ok=True)
         print(f"{path} was damaged: removed, to be made again.", file=sys.stderr)
+    for path in damaged(Path(f"{OUTPUT}/states/{name}.nc") for name in STATES):
+        os.utime(path, (0, 0))  # no run is out of date for it
+        print(f"{path} is damaged: a run that needs it makes it again.", file=sys.stderr)
     if number := date_now(OUTPUT):
         print(f"{number} files in {OUTPUT} are dated in the future (was the clock set back?): corrected.", file=sys.stderr)
 

@@ -16,8 +16,7 @@ rule equilibrate:
 
 rule simulate:
     input:
-        # Ancient: its address and the digest of the physics say all; a damaged one that a job makes again is the same.
-        state=lambda wildcards: ancient(f"{OUTPUT}/states/{RUNS[wildcards.run].state_address}.nc"),
+        state=lambda wildcards: f"{OUTPUT}/states/{RUNS[wildcards.run].state_address}.nc",
     output:
         run=f"{OUTPUT}/runs/{{run}}.nc",
         positions=f"{OUTPUT}/positions/{{run}}.nc",

@@ -6,6 +6,7 @@ The rest of what storage offers can be had from here too: the table of variables
 import hashlib
 import json
 import logging
+import os
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
@@ -101,6 +102,8 @@ def read(path: str | Path) -> xr.Dataset:
 def read_or_make(path: str | Path, make: Callable[[], xr.Dataset]) -> xr.Dataset:
     """The dataset of a file; where it is damaged it is made and written again, and the log says so.
 
+    The new file has the date zero: it is the same as before, and what was made from that one is not out of date.
+
     Raises:
         FileNotFoundError: no such file.
     """
@@ -109,6 +112,7 @@ def read_or_make(path: str | Path, make: Callable[[], xr.Dataset]) -> xr.Dataset
     except DamagedFile as error:
         logger.warning("%s: it is damaged and made again", error.path)
         write(make(), path)
+        os.utime(path, (0, 0))
         return read(path)
 
 

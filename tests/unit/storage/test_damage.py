@@ -84,6 +84,7 @@ def test_a_damaged_file_is_made_again_and_a_whole_one_is_not(stored: Path, make_
     os.truncate(stored, 5000)
     assert content_sha256(read_or_make(stored, make_run)) == whole == content_sha256(read(stored))
     assert caplog.messages == [f"{stored}: it is damaged and made again"]
+    assert stored.stat().st_mtime == 0
 
 
 @pytest.mark.parametrize("error", [MemoryError(), OSError(24, "Too many open files"), PermissionError(13, "no")])
