@@ -25,6 +25,9 @@ STUDY = {
     "distance_factors": [1.05, 1.1],
     "checkpoint_seconds": 0.2,
 }
+MANY = 102
+"""Interruptions of the long test, as many of each kind."""
+
 SEED = int(os.environ.get("INTERRUPTION_SEED", random.SystemRandom().randrange(10**6)))
 
 
@@ -142,7 +145,7 @@ def test_interrupted_at_any_moment_the_same_command_ends_with_the_same_files(who
     fresh.build(*TARGET)
     duration = time.monotonic() - begun
     cut = dict.fromkeys(KINDS, 0)
-    while sum(cut.values()) < 102:
+    while sum(cut.values()) < MANY:
         kind = min(cut, key=cut.__getitem__)
         shutil.rmtree(fresh.folder / "results")
         build = start(fresh)
@@ -307,11 +310,8 @@ def test_a_folder_that_is_read_only_is_told_in_a_line(fresh: Project) -> None:
     assert "output = 'results': nothing can be written there (Read-only file system)" in done.stdout
 
 
-COMPILE = """
-import granugas as gg
-{more}
-gg.warm_up([gg.Scene(16, 0.2, restitution=0.9, contact_time=1e-5)])
-"""
+COMPILE = "import granugas as gg; gg.warm_up([gg.Scene(16, 0.2, restitution=0.9, contact_time=1e-5)])"
+COMPILE_LITTLE = "from granugas.analysis.burning import _neighbour; _neighbour(1, 2, 1.0, True)"
 
 
 @pytest.fixture
@@ -320,14 +320,18 @@ def cold(whole: Project, tmp_path: Path) -> Iterator[dict[str, str]]:
     yield {k: v for k, v in whole.environment.items() if k != "NUMBA_CACHE_DIR"} | {"XDG_CACHE_HOME": str(tmp_path / "cache")}
 
 
-@pytest.mark.full
-@pytest.mark.timeout(7200)
-def test_many_processes_fill_a_cold_cache_at_once(cold: dict[str, str], tmp_path: Path) -> None:
-    for _ in range(20):
+@pytest.mark.parametrize(
+    ("rounds", "program"),
+    [(2, COMPILE_LITTLE), pytest.param(20, COMPILE, marks=[pytest.mark.full, pytest.mark.timeout(7200)])],
+    ids=["a little", "everything"],
+)
+def test_many_processes_fill_a_cold_cache_at_once(cold: dict[str, str], tmp_path: Path, rounds: int, program: str) -> None:
+    for _ in range(rounds):
         shutil.rmtree(tmp_path / "cache", ignore_errors=True)
-        jobs = [subprocess.Popen([sys.executable, "-c", COMPILE.format(more="")], env=cold, stderr=-1) for _ in range(4)]
+        jobs = [subprocess.Popen([sys.executable, "-c", program], env=cold, stderr=-1) for _ in range(4)]
         for job in jobs:
             assert job.communicate()[1] == b"" and job.returncode == 0
+        assert list((tmp_path / "cache/granugas").rglob("*.nbc"))
 
 
 @pytest.mark.full
@@ -335,7 +339,7 @@ def test_many_processes_fill_a_cold_cache_at_once(cold: dict[str, str], tmp_path
 def test_damaged_kernels_are_compiled_again(whole: Project, fresh: Project, what: str) -> None:
     cache = fresh.folder / "cache"
     environment = {k: v for k, v in whole.environment.items() if k != "NUMBA_CACHE_DIR"} | {"XDG_CACHE_HOME": str(cache)}
-    subprocess.run([sys.executable, "-c", COMPILE.format(more="")], env=environment, check=True)
+    subprocess.run([sys.executable, "-c", COMPILE], env=environment, check=True)
     for path in cache.rglob(f"*.{what}"):
         os.truncate(path, path.stat().st_size // 2)
     done = subprocess.run(fresh.command(*TARGET), env=environment, cwd=fresh.folder, capture_output=True, text=True)
