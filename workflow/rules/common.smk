@@ -41,14 +41,14 @@ if STUDIES.left_out and workflow.is_main_process:
 
 REMOVED = []
 if workflow.is_main_process and not {"-n", "--dry-run", "--dryrun"} & {*sys.argv}:
-    STORED = {"runs": RUNS, "clusters": CLUSTERS, "studies": STUDIES.studies}
-    STORED["positions"] = [address for address, run in RUNS.items() if run.keep_positions]
+    NAMES = STUDIES.names()
+    STORED = {folder: NAMES[folder] for folder in ("runs", "positions", "clusters")} | {"studies": STUDIES.studies}
     STORED["experiments"] = {name for of in (DRAWINGS, *MEASURED.values()) for names in of.values() for name in names}
-    REMOVED = damaged(Path(f"{OUTPUT}/{folder}/{name}.nc") for folder, names in STORED.items() for name in names)
+    REMOVED = damaged(Path(f"{OUTPUT}/{folder}/{name}.nc") for folder, names in STORED.items() for name in sorted(names))
     for path in REMOVED:
         path.unlink(missing_ok=True)
         print(f"{path} was damaged: removed, to be made again.", file=sys.stderr)
-    for path in damaged(Path(f"{OUTPUT}/states/{name}.nc") for name in STATES):
+    for path in damaged(Path(f"{OUTPUT}/states/{name}.nc") for name in NAMES["states"]):
         os.utime(path, (0, 0))  # no run is out of date for it
         print(f"{path} is damaged: a run that needs it makes it again.", file=sys.stderr)
     if number := date_now(OUTPUT):

@@ -3,6 +3,8 @@
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from granugas.analysis.structure import cells_of
+
 Numbers = NDArray[np.float64]
 
 
@@ -19,7 +21,7 @@ def differences_nearby(values: ArrayLike, period: float, positions: ArrayLike, b
     Returns:
         (2, n) mean and largest difference in units of `values`; NaN for particles alone in their cell.
     """
-    column, row = (np.floor(np.asarray(positions) / np.asarray(box) * parts).astype(int) % parts).T
+    column, row = cells_of(positions, box, parts).T
     cell = column * parts + row
     order = np.argsort(cell, kind="stable")
     cell, value = cell[order], np.asarray(values, dtype=float)[order]

@@ -8,7 +8,7 @@ Numbers = NDArray[np.float64]
 
 def density_field(positions: ArrayLike, box: ArrayLike, parts: int) -> Numbers:
     """(parts, parts) number density in equal cells by its mean, from positions (n, 2) in a box (2,)."""
-    cell = _cells(positions, box, parts)
+    cell = cells_of(positions, box, parts)
     counts = np.bincount(cell[:, 0] * parts + cell[:, 1], minlength=parts**2)
     return counts.reshape(parts, parts) * (parts**2 / len(cell))
 
@@ -20,7 +20,7 @@ def density_variance(positions: ArrayLike, box: ArrayLike, parts: int) -> float:
 
 def density_at(positions: ArrayLike, box: ArrayLike, parts: int) -> Numbers:
     """(n,) density, by its mean, in the cell of each particle."""
-    cell = _cells(positions, box, parts)
+    cell = cells_of(positions, box, parts)
     return density_field(positions, box, parts)[cell[:, 0], cell[:, 1]]
 
 
@@ -79,7 +79,7 @@ def mean_wavelength(k: Numbers, strength: Numbers, shortest: float) -> float:
     return float(2 * np.pi * strength[kept].sum() / (k * strength)[kept].sum())
 
 
-def _cells(positions: ArrayLike, box: ArrayLike, parts: int) -> NDArray[np.int64]:
+def cells_of(positions: ArrayLike, box: ArrayLike, parts: int) -> NDArray[np.int64]:
     """(n, 2) column and row of the cell of each particle, periodic images included."""
     return np.floor(np.asarray(positions) / np.asarray(box) * parts).astype(int) % parts
 
