@@ -59,6 +59,6 @@ clean:
 		{ echo 'Python 3.11 or newer is needed, and $(PYTHON) is not: make PYTHON=python3.12 ...'; exit 1; }
 	@echo 'Setting up .venv: about a minute.'
 	@$(PYTHON) -m venv .venv
-	@$(VENV)/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements.lock
+	@$(VENV)/python -m pip install --quiet --disable-pip-version-check --require-hashes --no-deps -r requirements.lock
 	@$(VENV)/python -m pip install --quiet --disable-pip-version-check --no-deps -e .
 	@touch $@
