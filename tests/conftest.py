@@ -32,7 +32,7 @@ def start_of() -> Callable[..., State]:
 def _after_elastic_collisions(scene: Scene, realization: int) -> State:
     rng, n = random_stream(scene, 0, realization), scene.n_particles
     if n in TILTED:
-        box = (math.sqrt(scene.area),) * 2
+        box = (math.sqrt(scene.volume),) * 2
         position = np.outer(np.arange(n), [1, TILTED[n]]) % n * box[0] / n
     else:
         lattice = start_lattice(scene)

@@ -19,12 +19,10 @@ def smallest_gap(engine: Engine) -> float:
     cells, which do not lose digits in a large box.
     """
     disks, grid, calendar = (engine.arrays[name] for name in ("disks", "grid", "calendar"))
-    box = np.array([grid["box_x"][0], grid["box_y"][0]])
-    cells = np.array([grid["nx"][0], grid["ny"][0]])
-    width = np.array([grid["width_x"][0], grid["width_y"][0]])
+    box, cells, width = grid["box"][0], grid["cells"][0], grid["width"][0]
     flown = (calendar["now"][0] - disks["t"])[:, np.newaxis]
-    in_cell = np.stack([disks["x"], disks["y"]], axis=1) + np.stack([disks["vx"], disks["vy"]], axis=1) * flown
-    cell = np.stack([disks["cx"], disks["cy"]], axis=1).astype(np.int64)
+    in_cell = disks["x"] + disks["v"] * flown
+    cell = disks["cell"].astype(np.int64)
     absolute = np.mod(in_cell + (cell + 0.5) * width, box)
     absolute[absolute >= box] = 0.0
     i, j = cKDTree(absolute, boxsize=box).query_pairs(NEAR, output_type="ndarray").T
@@ -34,4 +32,4 @@ def smallest_gap(engine: Engine) -> float:
     apart -= cells * np.rint(apart / cells).astype(np.int64)
     separation = in_cell[j] - in_cell[i] + apart * width
     separation -= box * np.rint(separation / box)  # where a box of a few cells leaves two ways around
-    return float(np.min(np.hypot(*separation.T)) - 1.0)
+    return float(np.min(np.linalg.norm(separation, axis=1)) - 1.0)

@@ -12,7 +12,7 @@ from granugas.analysis.theory import (
     elastic_particle_fraction,
     homogeneous_cooling,
 )
-from granugas.scene import CLOSE_PACKING
+from granugas.geometry import CLOSE_PACKING
 
 NU, DIAMETER, HALF_WIDTH = 0.226725, 1e-3, 0.5
 RATE = 444.0
@@ -153,7 +153,7 @@ def elastic(n: int) -> xr.Dataset:
     """Elastic disks: fluid and crystal, 30 samples, 5 per cent fewer elastic collisions than mean field has them."""
     nu = np.array([0.01, 0.03, 0.226725, 0.3, 0.4, 0.5, 0.6, 0.65, 0.69, 0.7, 0.71, 0.74, 0.8, 0.86])
     t_c = np.array([1e-7, 1e-6, 1e-5, 1e-4, 1e-3])
-    free_volume = 2 / (1 - nu / CLOSE_PACKING)
+    free_volume = 2 / (1 - nu / CLOSE_PACKING[2])
     solid = free_volume * np.where(nu > 0.75, 1.03 if n == 42 else 1, 0.8)
     P_0 = np.where(nu < 0.7, reduced_pressure(nu), solid)
     w_0 = enskog_rate(nu, HALF_WIDTH**2 / 3, DIAMETER) / (reduced_pressure(nu) - 1)

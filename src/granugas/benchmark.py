@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from granugas.arguments import is_number, need_integer
+from granugas.dynamics.events.effects.constant import Constant
 from granugas.dynamics.events.effects.contact_time import ContactTime
 from granugas.dynamics.events.engine import Engine
 from granugas.equilibrate import equilibrate, state_of
@@ -42,12 +43,12 @@ def time_collisions(
     *,
     equilibration: float = 30.0,
     begin: float = 0.0,
-    rule: Any = None,
     seed: int = 1,
+    **effects: Any,
 ) -> Timing:
     """Time the collisions of a scene from equilibrium, or from the time `begin` (s) on.
 
-    `rule` replaces the collision rule that the scene calls for (`always_contact_time`, to see what the rule costs).
+    `effects` replace those that the scene calls for (rule=always_contact_time(scene), to see what the rule costs).
 
     Raises:
         ValueError: no collision to time, or no time to begin at.
@@ -59,7 +60,7 @@ def time_collisions(
     warm_up([replace(scene)])
     compile_s = time.perf_counter() - started
     start = equilibrate(scene, seed=seed, collisions_per_particle=equilibration)
-    engine = Engine(scene, state_of(start), rule=rule)
+    engine = Engine(scene, state_of(start), **effects)
     engine.advance(begin)
     costs = []
     for _ in range(ROUNDS):
@@ -83,4 +84,4 @@ def time_span(scene: Scene, until: float, *, equilibration: float = 30.0, seed: 
 
 def always_contact_time(scene: Scene) -> ContactTime:
     """The TC rule also where the scene does not call for it (r = 1, t_c = 0)."""
-    return ContactTime(float(scene.restitution), float(max(scene.contact_times)))
+    return ContactTime(Constant(float(scene.restitution)), float(max(scene.contact_times)))

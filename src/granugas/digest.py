@@ -16,13 +16,13 @@ import sys
 import tempfile
 import time
 from collections.abc import Iterable
-from functools import lru_cache
+from functools import cache, lru_cache
 from pathlib import Path
 
 SOURCES = Path(__file__).resolve().parent
 
 EVENTS = (
-    "granugas.scene",
+    "granugas.geometry",
     "granugas.arguments",
     "granugas.doubts",
     "granugas.initial",
@@ -38,13 +38,16 @@ EVENTS = (
     *(
         f"granugas.dynamics.events.{name}"
         for name in (
-            *("memory", "composition", "state", "cells", "flight", "calendar", "look_ahead", "predict", "collisions"),
-            *("loop", "engine", "effects.nobody", "effects.constant", "effects.contact_time", "effects.elastic_share"),
-            *("effects.elastic_time", "effects.collapse"),
+            *("memory", "composition", "state", "vectors", "cells", "flight", "boundary", "sizes", "calendar", "look_ahead"),
+            *("predict", "collisions", "loop", "cast", "tables", "engine"),
         )
     ),
 )
-"""Modules that decide the numbers of an event-driven run, its start state included; no watch that only instruments use."""
+"""Modules that decide the numbers of every event-driven run, its start state included.
+
+A run's effects come on top (dynamics.events.effects.modules_of). What merely checks a scene or chooses effects for it is not
+among them: the values of the scene are in the address of a run, and the chosen files in its digest.
+"""
 
 ANALYSIS = ("granugas.analysis.burning", "granugas.analysis.clusters")
 """Modules that decide the numbers of a cluster analysis."""
@@ -74,6 +77,12 @@ def digest(modules: Iterable[str]) -> str:
     for name, path in sorted({item for module in modules for item in _source_files(module)}):
         total.update(f"{name}\0{_code(path.read_text(encoding='utf-8'))}\0".encode())
     return total.hexdigest()
+
+
+@cache
+def physics(effects: tuple[str, ...] = ("granugas.dynamics.events.effects.*",)) -> str:
+    """The digest of the engine with these effect files, of all of them unless named."""
+    return digest((*EVENTS, *effects))
 
 
 def use_kernel_cache() -> None:

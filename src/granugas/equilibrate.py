@@ -1,6 +1,7 @@
 """Equilibration: elastic collisions until the start lattice is forgotten and the velocities are Maxwellian."""
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -25,6 +26,9 @@ MOST_ROUNDS = 30
 
 SIGMAS = 4.0
 """Kurtosis and isotropy may deviate by so many standard deviations of a finite sample."""
+
+OF_PARTICLES = ("diameter", "mass", "spin")
+"""What effects know of each particle, where a start state has it."""
 
 MOST_ORDER = 16.0
 """Largest |sum exp(ikr)|^2 / N at the lattice's wave vectors: a fluid has 1 to 5 on average, a crystal of the order of N."""
@@ -78,7 +82,7 @@ def equilibrate(
     rng = random_stream(scene, seed, realization)
     melts = scene.area_fraction <= MELTED_UP_TO
     start = at_rest(sites(lattice, scene.n_particles, rng), start_velocities(scene, rng), lattice.box)
-    elastic = replace(scene, restitution=1.0, contact_time=0.0)
+    elastic = scene.at_start()
     engine = Engine(elastic, start)
     found, rounds = judge(start, lattice, melts), 0
     bar = Progress("equilibrate", shown=progress)
@@ -110,11 +114,11 @@ def judge(state: State, lattice: Lattice, melts: bool) -> Equilibrium:
     return Equilibrium(kurtosis, uneven, order, reached)
 
 
-def at_rest(position: np.ndarray, velocity: np.ndarray, box: tuple[float, float]) -> State:
-    """A state at t = 0 in which nobody has collided yet."""
+def at_rest(position: np.ndarray, velocity: np.ndarray, box: tuple[float, ...], **more: np.ndarray) -> State:
+    """A state at t = 0 in which nobody has collided yet; `more` as State has it."""
     n = len(position)
     never, endless = np.full(n, -np.inf), np.full(n, np.inf)
-    return State(0.0, box, position, velocity, never, endless, np.zeros(n, np.int64))
+    return State(0.0, box, position, velocity, never, endless, np.zeros(n, np.int64), more)
 
 
 def need_start(scene: Scene, start: Any) -> None:
@@ -123,26 +127,32 @@ def need_start(scene: Scene, start: Any) -> None:
     Raises:
         TypeError, ValueError: say what it is.
     """
-    if not isinstance(start, xr.Dataset) or "position" not in start or not {"box_x", "box_y"} <= start.attrs.keys():
+    if not isinstance(start, xr.Dataset) or "position" not in start or "box_x" not in start.attrs:
         raise TypeError(f"state = {type(start).__name__}: allowed is a dataset of granugas.equilibrate")
     if start.sizes["particle"] != scene.n_particles:
         raise ValueError(f"state = {start.sizes['particle']} disks: allowed are the {scene.n_particles} of the scene")
-    area = start.attrs["box_x"] * start.attrs["box_y"]
-    if not math.isclose(area, scene.area, rel_tol=1e-9):
-        raise ValueError(f"state = a box of {area:g} m^2: allowed is one of {scene.area:g} m^2, as the scene has")
+    volume, unit = math.prod(box_of(start.attrs)), f"m^{scene.dimensions}"
+    if len(box_of(start.attrs)) != scene.dimensions or not math.isclose(volume, scene.volume, rel_tol=1e-9):
+        raise ValueError(f"state = a box of {volume:g} {unit}: allowed is one of {scene.volume:g} {unit}, as the scene has")
 
 
 def state_of(start: xr.Dataset) -> State:
     """The state in a dataset of `equilibrate`."""
     return State(
         time=0.0,
-        box=(start.attrs["box_x"], start.attrs["box_y"]),
+        box=box_of(start.attrs),
         position=start["position"].values,
         velocity=start["velocity"].values,
         last_collision_time=start["last_collision_time"].values,
         last_collision_interval=start["last_collision_interval"].values,
         collisions=np.zeros(start.sizes["particle"], np.int64),
+        more={name: start[name].values for name in OF_PARTICLES if name in start},
     )
+
+
+def box_of(attributes: Mapping[str, Any]) -> tuple[float, ...]:
+    """The sides of a box (m) from the attributes box_x, box_y ... of a dataset."""
+    return tuple(float(attributes[f"box_{axis}"]) for axis in "xyz" if f"box_{axis}" in attributes)
 
 
 def _order(state: State, lattice: Lattice, hk: tuple[int, int]) -> float:
@@ -172,10 +182,11 @@ def _dataset(scene: Scene, lattice: Lattice, state: State, found: Equilibrium, c
         "velocity": ((*particles, "axis"), state.velocity),
         "last_collision_time": (particles, state.last_collision_time),
         "last_collision_interval": (particles, state.last_collision_interval),
+        **{name: ((*particles, "axis")[: values.ndim], values) for name, values in state.more.items()},
     }
+    axes = "xyz"[: scene.dimensions]
     attributes = {
-        "box_x": state.box[0],
-        "box_y": state.box[1],
+        **{f"box_{axis}": side for axis, side in zip(axes, state.box, strict=True)},
         "lattice_kind": lattice.kind,
         "lattice_columns": lattice.nx,
         "lattice_rows": lattice.ny,
@@ -186,4 +197,4 @@ def _dataset(scene: Scene, lattice: Lattice, state: State, found: Equilibrium, c
         "equilibration_order": found.order,
         "equilibration_reached": int(found.reached or scene.n_particles == 1),
     }
-    return describe(xr.Dataset(values, coords={"axis": ["x", "y"]}, attrs=attributes))
+    return describe(xr.Dataset(values, coords={"axis": list(axes)}, attrs=attributes))

@@ -7,12 +7,13 @@ from typing import Any
 
 import numpy as np
 
-from granugas.scene import CLOSE_PACKING, Scene, SceneError
+from granugas.geometry import CLOSE_PACKING
+from granugas.scene import Scene, SceneError
 
 TOUCH = 1.0 + 1.0e-9
 """Least distance of two centres on a start lattice, in diameters."""
 
-DENSEST = {"square": math.pi / 4, "triangular": CLOSE_PACKING}
+DENSEST = {"square": math.pi / 4, "triangular": CLOSE_PACKING[2]}
 """Area fractions of touching disks."""
 
 MELTED_UP_TO = 0.70
@@ -155,7 +156,7 @@ def _shapes_above(n: int) -> list[tuple[int, int]]:
 def _regular(scene: Scene, kind: str, nx: int, ny: int) -> Lattice:
     """The box in which nx times ny sites are equidistant, at the scene's area per site of N."""
     ratio = nx / ny * (2 / math.sqrt(3) if kind == "triangular" else 1.0)
-    box = (math.sqrt(scene.area * ratio), math.sqrt(scene.area / ratio))
+    box = (math.sqrt(scene.volume * ratio), math.sqrt(scene.volume / ratio))
     return Lattice(kind, nx, ny, box, _spacing(kind, nx, ny, box))
 
 
@@ -174,7 +175,7 @@ def _stretch(lattice: Lattice, scene: Scene) -> float:
 
 
 def _asked_box(scene: Scene) -> tuple[float, float]:
-    return math.sqrt(scene.area * scene.aspect_ratio), math.sqrt(scene.area / scene.aspect_ratio)
+    return math.sqrt(scene.volume * scene.aspect_ratio), math.sqrt(scene.volume / scene.aspect_ratio)
 
 
 def _factors(n: int) -> Iterator[tuple[int, int]]:

@@ -17,6 +17,7 @@ from types import FrameType
 from typing import NamedTuple
 
 from granugas.digest import forget_kernels
+from granugas.dynamics.events.effects import called_by
 from granugas.scene import Scene
 from granugas.storage.damage import DamagedFile, check, is_complete
 
@@ -144,7 +145,7 @@ def warm_up(log: str | Path, scenes: Iterable[Scene]) -> None:
     """
     Path(log).parent.mkdir(parents=True, exist_ok=True)
     with open(log, "w") as file:
-        kinds = {(scene.restitution == 1, any(scene.contact_times)): scene for scene in scenes}  # same kernels, same kind
+        kinds = {(scene.dimensions, *called_by(scene).values()): scene for scene in scenes}  # same kernels, same kind
         command = [sys.executable, "-c", f"from granugas import Scene, warm_up; warm_up({list(kinds.values())!r})"]
         if subprocess.run(command, stdout=file, stderr=subprocess.STDOUT, check=False).returncode:
             forget_kernels()

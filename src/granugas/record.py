@@ -1,6 +1,7 @@
 """What a run writes down on its way: one row a sample, all particles at the snapshots."""
 
 from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 
 import numpy as np
 import xarray as xr
@@ -12,22 +13,16 @@ from granugas.dynamics.state import State
 from granugas.sampling import Samples
 from granugas.scene import Scene
 
+NOTHING: Mapping[str, float] = MappingProxyType({})
+
 FREQUENCY_WINDOW = 0.9
 """collision_frequency counts a particle's collisions from this part of the time of a snapshot to the snapshot."""
 
-SERIES = (
-    "tau",
-    "kinetic_energy",
-    "kinetic_energy_x",
-    "kinetic_energy_y",
-    "collisions_per_particle",
-    "collision_rate",
-    "reduced_pressure",
-    "collisional_stress_xx",
-    "collisional_stress_xy",
-    "collisional_stress_yx",
-    "collisional_stress_yy",
-)
+AXES = "xyz"
+
+SERIES = ("tau", "kinetic_energy", "collisions_per_particle", "collision_rate", "reduced_pressure")
+"""Beside the energies along the axes and the components of the stress."""
+
 ELASTIC = (
     "elastic_collisions_per_particle",
     "elastic_collision_fraction",
@@ -49,24 +44,28 @@ class Record:
         snapshots: Sequence[float],
         keep_positions: bool,
         keep_motion: bool = False,
+        observed: Mapping[str, float] = NOTHING,
     ) -> None:
         """Take the sample at t = 0. `snapshots` in s; every sample keeps the positions, and the motion, if told so."""
         self._scene, self._points = scene, points
         self._contact_times = np.array(sorted(scene.contact_times))
         self.snapshots = np.array(sorted(snapshots), dtype=float)
-        count, n = len(points.points) + 1, scene.n_particles
+        count, n, dimensions = len(points.points) + 1, scene.n_particles, scene.dimensions
+        self._axes = AXES[:dimensions]
         on_average = (ELASTIC_ON_AVERAGE,) if scene.restitution == 1 and self._contact_times.any() else ()
         self._time = np.full(count, np.nan)
-        self._series = {name: np.full(count, np.nan) for name in SERIES}
+        along = (f"kinetic_energy_{axis}" for axis in self._axes)
+        self._pairs = {f"collisional_stress_{a}{b}": (i, j) for i, a in enumerate(self._axes) for j, b in enumerate(self._axes)}
+        self._series = {name: np.full(count, np.nan) for name in (*SERIES, *along, *self._pairs)}
         self._elastic = {name: np.full((count, len(self._contact_times)), np.nan) for name in (*ELASTIC, *on_average)}
-        self._trajectory = {"trajectory": np.full((count, n, 2), np.nan)} if keep_positions else {}
+        self._trajectory = {"trajectory": np.full((count, n, dimensions), np.nan)} if keep_positions else {}
         if keep_motion:
-            self._trajectory["trajectory_velocity"] = np.full((count, n, 2), np.nan, np.float32)
+            self._trajectory["trajectory_velocity"] = np.full((count, n, dimensions), np.nan, np.float32)
             self._trajectory["trajectory_collisions"] = np.full((count, n), -1, np.int32)
         several = len(self.snapshots)
         self._particles = {
-            "position": np.full((several, n, 2), np.nan),
-            "velocity": np.full((several, n, 2), np.nan),
+            "position": np.full((several, n, dimensions), np.nan),
+            "velocity": np.full((several, n, dimensions), np.nan),
             "last_collision_time": np.full((several, n), np.nan),
             "last_collision_interval": np.full((several, n), np.nan),
             "collision_frequency": np.full((several, n), np.nan),
@@ -80,7 +79,7 @@ class Record:
             "elastic_collisions": np.zeros(len(self._contact_times), np.int64),
             "elastic_so_far": np.zeros(len(self._contact_times)),
         }
-        self._write(start)
+        self._write(start, observed)
 
     def kept(self) -> dict[str, np.ndarray]:
         """All that is written so far: what `go_on` takes."""
@@ -90,6 +89,8 @@ class Record:
     def go_on(self, kept: Mapping[str, np.ndarray]) -> None:
         """Take over what another record had written; both must be of the same run."""
         self._done = int(kept["done"])
+        for name in kept.keys() - self._rows().keys() - self._of_snapshots().keys() - self._sums.keys() - {"done"}:
+            self._series[name] = np.full(len(self._time), np.nan)  # what effects observe
         for name, values in self._rows().items():
             values[: self._done] = kept[name]
         for name, values in (self._of_snapshots() | self._sums).items():
@@ -103,24 +104,28 @@ class Record:
         windows = {f"window_{name}": values for name, values in self._windows.items()}
         return windows | {f"snapshot_{name}": values for name, values in self._particles.items()}
 
-    def sample(self, state: State, tally: Tally) -> None:
-        """Write one row: the state at a sampling point, and what happened since the one before."""
+    @property
+    def time(self) -> float:
+        """Of the last sample (s)."""
+        return float(self._time[self._done - 1])
+
+    def sample(self, state: State, tally: Tally, observed: Mapping[str, float] = NOTHING) -> None:
+        """Write one row: the state at a sampling point, what happened since the one before, and what effects observe."""
         k, n = self._done, self._scene.n_particles
-        dt = state.time - self._time[k - 1]
+        dt = state.time - self.time
         self._sums["collisions"] += tally.collisions
         self._sums["elastic_collisions"] += tally.elastic
         so_far = self._sums["elastic_so_far"].copy()
-        self._write(state)
+        self._write(state, observed)
         if dt > 0:
             energy = kinetic_energy(state.velocity).sum() + tally.loss - tally.loss_time / dt  # mean over the interval
             stress = -tally.stress / (energy * dt)  # A Eq. 15, times V/E
             self._series["collision_rate"][k] = 2 * tally.collisions / (n * dt)
             self._series["reduced_pressure"][k] = 1 + np.trace(stress) / 2
-            for a, first in enumerate("xy"):
-                for b, second in enumerate("xy"):
-                    self._series[f"collisional_stress_{first}{second}"][k] = stress[a, b]
-            if tally.elastic_time is not None:
-                since_before = tally.elastic_time + self._sums["elastic_so_far"] - so_far
+            for name, pair in self._pairs.items():
+                self._series[name][k] = stress[pair]
+            if "elastic_time" in tally.more:
+                since_before = tally.more["elastic_time"] + self._sums["elastic_so_far"] - so_far
                 self._elastic[ELASTIC_ON_AVERAGE][k] = since_before / (n * dt)
         if tally.collisions > 0:
             self._elastic["elastic_collision_fraction"][k] = tally.elastic / tally.collisions
@@ -147,11 +152,10 @@ class Record:
             coords={
                 "time": np.concatenate([[0.0], self._points.points]) if by_time else np.arange(len(self._time)),
                 "snapshot": self.snapshots,
-                "axis": ["x", "y"],
+                "axis": list(self._axes),
             },
             attrs={
-                "box_x": self._start.box[0],
-                "box_y": self._start.box[1],
+                **{f"box_{axis}": side for axis, side in zip(self._axes, self._start.box, strict=True)},
                 "frequency_window": f"from {FREQUENCY_WINDOW} of the time of the snapshot to the snapshot",
             },
         )
@@ -163,20 +167,23 @@ class Record:
             data[name] = (("time", "contact_time"), values) if several else ("time", values[:, 0])
         for name, values in self._particles.items():
             data[name] = (("snapshot", "particle", "axis")[: values.ndim], values)
-        data["initial_y"] = ("particle", self._start.position[:, 1])
+        data["initial_y"] = ("particle", self._start.position[:, min(1, len(self._axes) - 1)])
         data["enskog_rate"] = self._rate
         for name, values in self._trajectory.items():
             data[name] = (("time", "particle", "axis")[: values.ndim], values)
         return data
 
-    def _write(self, state: State) -> None:
-        """Write what the state alone says into the next row."""
+    def _write(self, state: State, observed: Mapping[str, float]) -> None:
+        """Write what the state alone says, and what effects observe, into the next row."""
         k, n = self._done, self._scene.n_particles
-        along_x, along_y = kinetic_energy(state.velocity) / self._energy
+        along = kinetic_energy(state.velocity) / self._energy
         self._time[k] = state.time
         self._series["tau"][k] = state.time * self._rate
-        self._series["kinetic_energy"][k] = along_x + along_y
-        self._series["kinetic_energy_x"][k], self._series["kinetic_energy_y"][k] = along_x, along_y
+        self._series["kinetic_energy"][k] = sum(along)
+        for axis, share in zip(self._axes, along, strict=True):
+            self._series[f"kinetic_energy_{axis}"][k] = share
+        for name, value in observed.items():
+            self._series.setdefault(name, np.full(len(self._time), np.nan))[k] = value
         self._series["collisions_per_particle"][k] = 2 * self._sums["collisions"] / n
         self._elastic["elastic_collisions_per_particle"][k] = 2 * self._sums["elastic_collisions"] / n
         instant = (state.last_collision_time, state.time, self._contact_times)

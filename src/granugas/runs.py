@@ -7,14 +7,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from typing import Any
 
-from granugas.scene import SCENE_KEYS, Scene
+from granugas.scene import SCENE_KEYS, START_KEYS, Scene
 
 DEFAULTS = {field.name: field.default for field in fields(Scene)}
 GRID_KEYS = tuple(SCENE_KEYS[: SCENE_KEYS.index("lattice") + 1])
 """Keys that every scene has; the others, effects, enter an address only where they are not the default."""
-
-START_KEYS = (*(key for key in SCENE_KEYS if key not in ("restitution", "contact_time", "dynamics")),)
-"""Keys that decide a start state."""
 
 START_SECONDS = 2.0
 SECONDS_PER_COLLISION = 1e-6

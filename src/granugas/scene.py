@@ -1,13 +1,12 @@
 """A scene: what is simulated, as pure data that is checked when it is made."""
 
 import math
-from collections.abc import Mapping
-from dataclasses import asdict, dataclass, fields
+from collections.abc import Callable, Mapping
+from dataclasses import asdict, dataclass, field, fields
 from numbers import Integral, Real
 from typing import Any
 
-CLOSE_PACKING = math.pi / (2 * math.sqrt(3))
-"""Area fraction of the densest packing of equal disks, .9069."""
+from granugas.geometry import CLOSE_PACKING, box_volume
 
 MAX_PARTICLES = 10_000_000
 EXTREME = 1.0e50
@@ -15,11 +14,6 @@ EXTREME = 1.0e50
 
 MOST_SLENDER = 1.0e4
 """Ratio of the sides of a box, either way."""
-
-LATTICES = ("auto", "triangular", "square")
-DYNAMICS = ("events",)
-BOUNDARIES = ("periodic",)
-DIMENSIONS = (2,)
 
 
 class SceneError(ValueError):
@@ -30,20 +24,93 @@ class SceneError(ValueError):
         self.key, self.value, self.allowed = key, value, allowed
 
 
+# --- what a key may hold --------------------------------------------------------------------------------------------------
+
+
+def _key(default: Any, check: Callable[[str, Any], None], *, start: bool = False) -> Any:
+    """A key of a scene: its default, what it may hold, and whether the start state depends on it."""
+    return field(default=default, metadata={"check": check, "start": start})
+
+
+def integer(default: int, low: int, high: int, **how: bool) -> Any:
+    """A key that holds an integer from `low` to `high`."""
+
+    def check(key: str, value: Any) -> None:
+        if isinstance(value, bool) or not isinstance(value, Integral) or not low <= value <= high:
+            raise SceneError(key, value, f"allowed is an integer from {low} to {high}")
+
+    return _key(default, check, **how)
+
+
+def number(
+    default: float,
+    *,
+    at_least: float | None = None,
+    above: float | None = None,
+    at_most: float = math.inf,
+    within: float = math.inf,
+    unit: str = "",
+    **how: bool,
+) -> Any:
+    """A key that holds a finite number of this range; `within`: a factor, up to which it and its inverse may go."""
+    low = f">= {at_least:g}" if at_least is not None else f"> {above:g}"
+    high = f" and <= {at_most:.6g}" if at_most < math.inf else ""
+    allowed = f"allowed is a number {low}{high}{' ' if unit else ''}{unit}"
+
+    def check(key: str, value: Any) -> None:
+        if isinstance(value, bool) or not isinstance(value, Real) or not math.isfinite(value):
+            raise SceneError(key, value, allowed)
+        if (at_least is not None and value < at_least) or (above is not None and value <= above) or value > at_most:
+            raise SceneError(key, value, allowed)
+        if within < math.inf and not 1 / within <= value <= within:
+            raise SceneError(key, value, f"allowed is a number from {1 / within:g} to {within:g}")
+
+    return _key(default, check, **how)
+
+
+def choice(default: Any, *others: Any, **how: bool) -> Any:
+    """A key that holds one of a few words or integers."""
+
+    def check(key: str, value: Any) -> None:
+        if isinstance(value, bool) or not isinstance(value, (str, int)) or value not in (default, *others):
+            raise SceneError(key, value, f"allowed are {', '.join(map(str, (default, *others)))}")
+
+    return _key(default, check, **how)
+
+
+def _area_fraction(default: float) -> Any:
+    """The key of nu, which close packing bounds: how, depends on the dimensions."""
+    return _key(default, lambda key, value: None, start=True)
+
+
+def _contact_time(default: float) -> Any:
+    """The key of t_c: a number, or several."""
+    check_number = number(default, at_least=0.0, unit="s").metadata["check"]
+
+    def check(key: str, value: Any) -> None:
+        for time in value if isinstance(value, tuple) else (value,):
+            check_number(key, time)
+
+    return _key(default, check)
+
+
+# --- the scene ------------------------------------------------------------------------------------------------------------
+
+
 @dataclass(frozen=True)
 class Scene:
-    """Freely cooling hard disks; the defaults are paper A's units and its central case.
+    """Freely cooling hard disks; the defaults are paper A's units and its central case. Effects are off unless named.
 
     Attributes:
-        n_particles: number of disks N.
-        area_fraction: nu = N pi d^2 / (4 V).
+        n_particles: number of particles N.
+        area_fraction: nu = N pi d^2 / (4 V); in 3D the volume fraction, in 1D the line fraction.
         restitution: r of A Eq. 3, in [0, 1].
         contact_time: t_c of A Eq. 4 in s; a tuple of them at restitution 1, where one trajectory serves all.
         diameter: d in m.
-        velocity_half_width: w in m/s; components start uniform in +-w, so that E(0) = N m w^2 / 3.
+        velocity_half_width: w in m/s; components start uniform in +-w, so that E(0) = D N m w^2 / 6 in D dimensions.
         dynamics: the method that moves the particles.
         lattice: start lattice; "auto" holds any N.
-        dimensions: of space.
+        dimensions: D of space.
         boundary: of the box.
         aspect_ratio: Lx / Ly of the box; an explicit lattice takes the nearest that it can.
 
@@ -51,56 +118,57 @@ class Scene:
         SceneError: a value outside of what is allowed.
     """
 
-    n_particles: int = 5740
-    area_fraction: float = 0.2267
-    restitution: float = 0.4
-    contact_time: float | tuple[float, ...] = 1.0e-5
-    diameter: float = 1.0e-3
-    velocity_half_width: float = 0.5
-    dynamics: str = "events"
-    lattice: str = "auto"
-    dimensions: int = 2
-    boundary: str = "periodic"
-    aspect_ratio: float = 1.0
+    n_particles: int = integer(5740, 1, MAX_PARTICLES, start=True)
+    area_fraction: float = _area_fraction(0.2267)
+    restitution: float = number(0.4, at_least=0.0, at_most=1.0)
+    contact_time: float | tuple[float, ...] = _contact_time(1.0e-5)
+    diameter: float = number(1.0e-3, above=0.0, within=EXTREME, unit="m", start=True)
+    velocity_half_width: float = number(0.5, above=0.0, within=EXTREME, unit="m/s", start=True)
+    dynamics: str = choice("events")
+    lattice: str = choice("auto", "triangular", "square", start=True)
+    dimensions: int = choice(2, start=True)
+    boundary: str = choice("periodic", start=True)
+    aspect_ratio: float = number(1.0, above=0.0, within=MOST_SLENDER, start=True)
 
     def __post_init__(self) -> None:
-        _integer("n_particles", self.n_particles, 1, MAX_PARTICLES)
-        _number("area_fraction", self.area_fraction, above=0.0, at_most=CLOSE_PACKING, note=" (close packing)")
-        _number("restitution", self.restitution, at_least=0.0, at_most=1.0)
         if isinstance(self.contact_time, (tuple, list)):
-            times = tuple(float(_number("contact_time", t, at_least=0.0, note=" s")) for t in self.contact_time)
-            if self.restitution != 1 or not times:
+            object.__setattr__(self, "contact_time", tuple(self.contact_time))
+        for key in fields(self):
+            key.metadata["check"](key.name, getattr(self, key.name))
+        self._refuse_what_does_not_go_together()
+
+    def _refuse_what_does_not_go_together(self) -> None:
+        packed = number(0.0, above=0.0, at_most=CLOSE_PACKING[self.dimensions], unit="(close packing)", within=EXTREME)
+        packed.metadata["check"]("area_fraction", self.area_fraction)
+        if isinstance(self.contact_time, tuple):
+            if self.restitution != 1 or not self.contact_time:
                 raise SceneError("contact_time", self.contact_time, "a list (not empty) is allowed at restitution = 1 only")
-            object.__setattr__(self, "contact_time", times)
-        else:
-            _number("contact_time", self.contact_time, at_least=0.0, note=" s")
-        _number("diameter", self.diameter, above=0.0, note=" m")
-        _number("velocity_half_width", self.velocity_half_width, above=0.0, note=" m/s")
-        _number("aspect_ratio", self.aspect_ratio, above=0.0)
-        for key in ("area_fraction", "diameter", "velocity_half_width"):
-            _within(key, getattr(self, key), EXTREME)
-        _within("aspect_ratio", self.aspect_ratio, MOST_SLENDER)
-        _choice("dynamics", self.dynamics, DYNAMICS)
-        _choice("lattice", self.lattice, LATTICES)
-        _choice("dimensions", self.dimensions, DIMENSIONS)
-        _choice("boundary", self.boundary, BOUNDARIES)
+            object.__setattr__(self, "contact_time", tuple(map(float, self.contact_time)))
 
     @property
-    def area(self) -> float:
-        """V = N pi d^2 / (4 nu) in m^2."""
-        return self.n_particles * math.pi * self.diameter**2 / (4 * self.area_fraction)
+    def volume(self) -> float:
+        """V = N pi d^2 / (4 nu) in m^2, or what it is in D dimensions, in m^D."""
+        return box_volume(self.n_particles, self.area_fraction, self.diameter, self.dimensions)
 
     @property
     def contact_times(self) -> tuple[float, ...]:
         """Every t_c of the scene, in s."""
         return self.contact_time if isinstance(self.contact_time, tuple) else (self.contact_time,)
 
+    def at_start(self) -> "Scene":
+        """The scene of its equilibration: elastic, with nothing of what does not decide the start state."""
+        kept = {key.name: getattr(self, key.name) for key in fields(self) if key.metadata["start"]}
+        return Scene(**kept, restitution=1.0, contact_time=0.0)
+
     def as_dict(self) -> dict[str, Any]:
         """All keys and values, as they were given."""
         return asdict(self)
 
 
-SCENE_KEYS = tuple(f.name for f in fields(Scene))
+SCENE_KEYS = tuple(key.name for key in fields(Scene))
+
+START_KEYS = tuple(key.name for key in fields(Scene) if key.metadata["start"])
+"""Keys that decide a start state."""
 
 
 def scene_from(values: Mapping[str, Any]) -> Scene:
@@ -113,37 +181,3 @@ def scene_from(values: Mapping[str, Any]) -> Scene:
         if key not in SCENE_KEYS:
             raise SceneError(key, values[key], f"unknown key; allowed are {', '.join(SCENE_KEYS)}")
     return Scene(**values)
-
-
-def _integer(key: str, value: Any, low: int, high: int) -> int:
-    if isinstance(value, bool) or not isinstance(value, Integral) or not low <= value <= high:
-        raise SceneError(key, value, f"allowed is an integer from {low} to {high}")
-    return int(value)
-
-
-def _number(
-    key: str,
-    value: Any,
-    *,
-    at_least: float | None = None,
-    above: float | None = None,
-    at_most: float = math.inf,
-    note: str = "",
-) -> float:
-    low = f">= {at_least:g}" if at_least is not None else f"> {above:g}"
-    allowed = f"allowed is a number {low}" + (f" and <= {at_most:.6g}" if at_most < math.inf else "") + note
-    if isinstance(value, bool) or not isinstance(value, Real) or not math.isfinite(value):
-        raise SceneError(key, value, allowed)
-    if (at_least is not None and value < at_least) or (above is not None and value <= above) or value > at_most:
-        raise SceneError(key, value, allowed)
-    return float(value)
-
-
-def _within(key: str, value: float, factor: float) -> None:
-    if not 1 / factor <= value <= factor:
-        raise SceneError(key, value, f"allowed is a number from {1 / factor:g} to {factor:g}")
-
-
-def _choice(key: str, value: Any, allowed: tuple[Any, ...]) -> None:
-    if isinstance(value, bool) or not isinstance(value, (str, int)) or value not in allowed:
-        raise SceneError(key, value, f"allowed are {', '.join(map(str, allowed))}")

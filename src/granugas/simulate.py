@@ -86,13 +86,13 @@ def simulate(
         state = equilibrate(scene, seed=seed, realization=realization, progress=progress)
     need_start(scene, state)
     engine = Engine(scene, state_of(state))
-    cells = [int(engine.arrays["grid"][count][0]) for count in ("nx", "ny")]
-    tell(doubts := doubts_before(scene, state.attrs, cells, keep_positions))
-    record = Record(scene, engine.state(), points, times, keep_positions, keep_motion)
+    tell(doubts := doubts_before(scene, state.attrs, engine.cells, keep_positions))
+    first = engine.state()
+    record = Record(scene, first, points, times, keep_positions, keep_motion, engine.observe(first))
     stops = _stops(scene.n_particles, limits, points, record, max_collisions)
     saved = checkpoint.load() if checkpoint is not None else None
     if saved is not None:
-        engine = Engine.resume(scene, engine.box, _part(saved, "engine"))
+        engine.restore(_part(saved, "engine"))
         record.go_on(_part(saved, "record"))
         for stop, left in zip(stops, saved["stops_left"], strict=True):
             while len(stop) > left:
@@ -157,7 +157,11 @@ def _stops(n: int, limits: Limits, points: Samples, record: Record, max_collisio
     for k, snapshot in enumerate(record.snapshots):
         times.append((FREQUENCY_WINDOW * snapshot, lambda engine, k=k: record.open_window(k, engine.state())))
         times.append((snapshot, lambda engine, k=k: record.take_snapshot(k, engine.state())))
-    sample = lambda engine: record.sample(engine.state(), engine.take_tally())  # noqa: E731
+
+    def sample(engine: Engine) -> None:
+        state, tally = engine.state(), engine.take_tally()
+        record.sample(state, tally, engine.observe(state, tally, state.time - record.time))
+
     if points.axis == "time":
         times += [(t, sample) for t in points.points]
     else:

@@ -16,7 +16,7 @@ def warm_up(scenes: Iterable[Scene] = (Scene(),)) -> None:
     """
     for scene in scenes:
         small = replace(scene, n_particles=16, area_fraction=0.2, lattice="auto", aspect_ratio=1.0)
-        for needed in (small, replace(small, restitution=1.0, contact_time=0.0)):
+        for needed in (small, small.at_start()):
             rng = random_stream(needed, 0, 0)
             lattice = start_lattice(needed)
             Engine(needed, at_rest(sites(lattice, 16, rng), start_velocities(needed, rng), lattice.box)).advance(1.0, 32)

@@ -272,8 +272,8 @@ def test_a_pair_in_touch_that_hardly_moves(gap, speed, common):
 def test_on_the_borders_of_cells_and_of_the_box(box):
     """Disks that start on borders, and fly along them: the same collisions as anywhere else."""
     probe = engine_of([[0.0, 0.0]], [[0.0, 0.0]], box).arrays["grid"]
-    width = np.array([probe["width_x"][0], probe["width_y"][0]])
-    column, line = (index.ravel() for index in np.meshgrid(np.arange(probe["nx"][0] // 2), np.arange(probe["ny"][0] // 2)))
+    width, cells = probe["width"][0], probe["cells"][0]
+    column, line = (index.ravel() for index in np.meshgrid(np.arange(cells[0] // 2), np.arange(cells[1] // 2)))
     position = 2 * np.stack([column, line], axis=1) * width
     rng = np.random.default_rng(1998)
     velocity = rng.uniform(-1, 1, position.shape) * rng.integers(0, 2, position.shape)  # many along one axis, some at rest
@@ -362,8 +362,8 @@ def test_the_rule_resolves_picoseconds_at_any_time(late, since):
     position = np.array([[10.0, 8.0], [11.0 + late, 8.0], [12.0 + late + handed * since, 8.0]])
     engine = engine_of(position, [[1.0, 0.0], [0.0, 0.0], [0.0, 0.0]], (late + 100, 16.0), r, t_c)
     disks, grid = engine.arrays["disks"], engine.arrays["grid"]  # a place at 1e6 d has no digits left for the gap
-    apart = grid["width_x"][0] * (disks["cx"][2] - disks["cx"][1])
-    disks["x"][2] = disks["x"][1] + 1 + handed * since - apart
+    apart = grid["width"][0, 0] * (disks["cell"][2, 0] - disks["cell"][1, 0])
+    disks["x"][2, 0] = disks["x"][1, 0] + 1 + handed * since - apart
     check(engine, engine.advance(late + 1.0, 2))
     assert engine.time == pytest.approx(late, rel=1e-12)
     assert engine.arrays["calendar"]["base"][0] > 0.9 * late

@@ -10,6 +10,8 @@ import pytest
 
 from granugas import digest as sources
 from granugas.digest import digest, kernel_cache_directory, use_kernel_cache
+from granugas.dynamics.events.effects import modules_of
+from granugas.scene import Scene
 
 SCENE = '''"""A module."""
 WIDTH = 2.0
@@ -118,14 +120,23 @@ def test_an_unknown_module_is_refused(name):
         digest([name])
 
 
-@pytest.mark.parametrize("modules", [sources.EVENTS, sources.ANALYSIS])
+@pytest.mark.parametrize("modules", [(*sources.EVENTS, "granugas.dynamics.events.effects.*"), sources.ANALYSIS])
 def test_what_decides_numbers_is_covered(modules):
-    """Whatever a covered module imports of the package is covered too, or decides no number."""
+    """Whatever a covered module imports of the package is covered too, or decides no number (scenes only check theirs)."""
     covered = {name for module in modules for name, _ in sources._source_files(module)}
     packages = ("", "analysis/", "dynamics/", "dynamics/events/", "dynamics/events/effects/")
-    free = ("storage/", "digest.py", *(f"{package}__init__.py" for package in packages))
+    free = ("storage/", "digest.py", "scene.py", *(f"{package}__init__.py" for package in packages))
     imported = set().union(*(imports(sources.SOURCES / name) for name in covered))
     assert {name for name in imported - covered if not name.startswith(free)} == set()
+
+
+def test_an_effect_counts_where_a_scene_calls_for_it():
+    dissipative, elastic = Scene(), Scene(restitution=1.0, contact_time=0.0)
+    called = modules_of(dissipative)
+    assert any(name.endswith(".contact_time") for name in called)
+    assert not any(name.endswith(".contact_time") for name in modules_of(elastic))
+    assert set(modules_of(dissipative, elastic)) == {*called, *modules_of(elastic)}
+    assert len({sources.physics(called), sources.physics(modules_of(elastic)), sources.physics()}) == 3
 
 
 def test_every_compiled_function_is_covered():

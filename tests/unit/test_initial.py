@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 from scipy.spatial import cKDTree
 
+from granugas.geometry import CLOSE_PACKING
 from granugas.initial import check_lattice, random_stream, rescaled, sites, start_lattice, start_velocities
-from granugas.scene import CLOSE_PACKING, Scene, SceneError
+from granugas.scene import Scene, SceneError
 
 RNG = np.random.default_rng
 OTHER_DISSIPATION = [{"restitution": 0.9}, {"contact_time": 0.0}, {"restitution": 1.0, "contact_time": (1e-3, 1e-5)}]
@@ -28,7 +29,7 @@ def check_start(scene):
     position = sites(lattice, scene.n_particles, RNG(0))
     assert position.shape == (scene.n_particles, 2)
     assert np.all((position >= 0) & (position < lattice.box))
-    assert lattice.box[0] * lattice.box[1] >= scene.area * (1 - 1e-12)
+    assert lattice.box[0] * lattice.box[1] >= scene.volume * (1 - 1e-12)
     assert least_distance(position, lattice.box) >= scene.diameter
     assert (
         least_distance(position, lattice.box) == pytest.approx(lattice.spacing) or scene.n_particles < lattice.nx * lattice.ny
@@ -46,7 +47,7 @@ def test_any_number_of_disks(n_particles, area_fraction):
         assert n_particles < 31, error
         assert area_fraction >= 0.7, error
         return
-    assert lattice.box[0] * lattice.box[1] == pytest.approx(scene.area)
+    assert lattice.box[0] * lattice.box[1] == pytest.approx(scene.volume)
 
 
 @pytest.mark.parametrize("n_particles", [64, 378, 1009, 5740, 10_000])
@@ -121,7 +122,7 @@ def test_a_refused_number_comes_with_the_nearest_that_fits(lattice, n_particles,
 
 
 @pytest.mark.parametrize(
-    ("lattice", "largest", "said"), [("square", math.pi / 4, "0.7854"), ("triangular", CLOSE_PACKING, "0.9069")]
+    ("lattice", "largest", "said"), [("square", math.pi / 4, "0.7854"), ("triangular", CLOSE_PACKING[2], "0.9069")]
 )
 def test_no_number_fits_on_touching_sites(lattice, largest, said):
     with pytest.raises(SceneError, match=f"a {lattice} lattice holds less than {said}"):

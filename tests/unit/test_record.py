@@ -23,7 +23,8 @@ def state(time, velocity=START, last=(NEVER,) * 4, collisions=(0,) * 4) -> State
 
 
 def tally(collisions=0, elastic=(0,), loss=0.0, loss_time=0.0, stress=((0.0, 0.0), (0.0, 0.0)), elastic_time=None) -> Tally:
-    return Tally(collisions, np.array(elastic), elastic_time, loss, loss_time, np.array(stress))
+    more = {} if elastic_time is None else {"elastic_time": elastic_time}
+    return Tally(collisions, np.array(elastic), loss, loss_time, np.array(stress), more)
 
 
 def record(scene=SCENE, points=(1.0, 2.0, 4.0), axis="time", snapshots=(), keep_positions=False) -> Record:

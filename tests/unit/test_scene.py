@@ -5,7 +5,8 @@ from dataclasses import FrozenInstanceError
 
 import pytest
 
-from granugas.scene import CLOSE_PACKING, SCENE_KEYS, Scene, SceneError, scene_from
+from granugas.geometry import CLOSE_PACKING
+from granugas.scene import SCENE_KEYS, START_KEYS, Scene, SceneError, scene_from
 
 
 def test_the_defaults_are_the_central_case_of_paper_a():
@@ -16,7 +17,7 @@ def test_the_defaults_are_the_central_case_of_paper_a():
 
 def test_the_area_follows_from_the_area_fraction():
     scene = Scene(n_particles=100, area_fraction=0.3, diameter=2e-3)
-    assert 100 * math.pi * 1e-6 / scene.area == pytest.approx(0.3)
+    assert 100 * math.pi * 1e-6 / scene.volume == pytest.approx(0.3)
 
 
 def test_a_scene_is_a_value():
@@ -36,7 +37,7 @@ def test_keys_and_values_come_back():
 
 
 def test_the_edges_are_allowed():
-    for values in ({"n_particles": 1}, {"area_fraction": CLOSE_PACKING}, {"restitution": 0}, {"restitution": 1}):
+    for values in ({"n_particles": 1}, {"area_fraction": CLOSE_PACKING[2]}, {"restitution": 0}, {"restitution": 1}):
         Scene(**values)
     Scene(contact_time=0, n_particles=10_000_000)
 
@@ -85,6 +86,14 @@ def test_a_wrong_value_is_named(key, value, allowed):
 def test_a_wrong_list_of_contact_times(times):
     with pytest.raises(SceneError, match="contact_time"):
         Scene(restitution=1.0, contact_time=times)
+
+
+def test_equilibration_knows_only_what_decides_the_start():
+    scene = Scene(7, 0.3, restitution=0.2, contact_time=1e-3, diameter=2e-3, lattice="square", aspect_ratio=2.0)
+    start = scene.at_start()
+    assert (start.restitution, start.contact_time) == (1.0, 0.0)
+    assert all(getattr(start, key) == getattr(scene, key) for key in START_KEYS)
+    assert start.at_start() == start
 
 
 def test_an_unknown_key_is_named():

@@ -6,6 +6,7 @@ import xarray as xr
 
 from granugas.analysis import theory
 from granugas.analysis.at_rest import energies_at_rest
+from granugas.dynamics.events.effects.constant import Constant
 from granugas.dynamics.events.effects.contact_time import ContactTime
 from granugas.dynamics.plate import COLLAPSE, HITS, Ball, bounce
 from granugas.experiments import bouncing
@@ -43,7 +44,7 @@ def in_units_of_t_1(times: xr.DataArray) -> np.ndarray:
 def test_speeds_and_flights_until_rest(r):
     """A Eqs. 5 and 6."""
     ratio = 1e-4
-    run = bounce(ContactTime(r, ratio * T_1), Ball(0.0, -bouncing.FIRST_SPEED), G, 2000)
+    run = bounce(ContactTime(Constant(r), ratio * T_1), Ball(0.0, -bouncing.FIRST_SPEED), G, 2000)
     assert run.stop == HITS
     n = np.arange(1, theory.whole_hits_to_rest(r, ratio) + 1)
     speeds = theory.bounce_speed(n, r, bouncing.FIRST_SPEED)

@@ -124,11 +124,11 @@ def test_the_gap_is_seen_across_every_edge(gap, place):
     box = (1024.0, 1024.0)
     engine = Engine(scene, at_rest(np.array(place) * box + np.zeros((2, 2)), np.zeros((2, 2)), box))
     disks, grid = engine.arrays["disks"], engine.arrays["grid"]
-    cells, width = grid["nx"][0], grid["width_x"][0]
+    cells, width = grid["cells"][0, 0], grid["width"][0, 0]
     middle = np.array(place) * cells
     for k, side in enumerate((-1, 1)):
         from_edge = side * (1 + gap) / 2 * np.array([0.6, 0.8])
         inside = np.floor(middle + side * 0.25).astype(int)
-        disks["x"][k], disks["y"][k] = from_edge + (middle - inside - 0.5) * width
-        disks["cx"][k], disks["cy"][k] = inside % cells
+        disks["x"][k] = from_edge + (middle - inside - 0.5) * width
+        disks["cell"][k] = inside % cells
     assert smallest_gap(engine) == pytest.approx(gap, abs=1e-14)

@@ -25,8 +25,8 @@ def elastic():
     for k in range(STEPS):
         seen = follow(engine, (k + 1) * STEP)
         found[:, k] = pressures(volumes, engine.state(), seen, scene.diameter, STEP)
-    to_reduced = scene.area / kinetic_energy(engine.state().velocity).sum()
-    own = -np.trace(engine.take_tally().stress) / 2 / (STEP * STEPS * scene.area)
+    to_reduced = scene.volume / kinetic_energy(engine.state().velocity).sum()
+    own = -np.trace(engine.take_tally().stress) / 2 / (STEP * STEPS * scene.volume)
     return found * to_reduced, own * to_reduced
 
 

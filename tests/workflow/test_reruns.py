@@ -89,6 +89,22 @@ def test_changed_physics_runs_everything_again(built: Project) -> None:
     assert jobs == expected
 
 
+def test_a_changed_effect_runs_what_calls_for_it(built: Project) -> None:
+    """The TC rule is in the runs and not in their elastic start; no run names the shares of elastic gases."""
+    with built.edited("src/granugas/dynamics/events/effects/contact_time.py", "\nfrom typing", "\nELSE = 1\nfrom typing"):
+        assert built.jobs() == {"simulate": 2, "clusters": 2, "pool": 1, "figure_study_small": 1}
+    with built.edited("src/granugas/dynamics/events/effects/elastic_share.py", "\nfrom typing", "\nELSE = 1\nfrom typing"):
+        assert built.jobs() == {}
+
+
+def test_a_new_effect_runs_nothing(built: Project) -> None:
+    file = built.sources / "src/granugas/dynamics/events/effects/new.py"
+    file.write_text("ELSE = 1\n")
+    with built.edited("src/granugas/scene.py", "\nimport", "\nELSE = 1\nimport"):
+        assert built.jobs() == {}
+    file.unlink()
+
+
 def test_a_changed_cluster_analysis_simulates_nothing(built: Project) -> None:
     with built.edited("src/granugas/analysis/clusters.py", "\nimport", "\nELSE = 1\nimport"):
         jobs = built.jobs()

@@ -8,7 +8,7 @@ from granugas.analysis.elastic import whole_runs
 from granugas.analysis.statistics import jackknife, mean_and_error
 from granugas.analysis.theory import elastic_collision_fraction, elastic_particle_fraction, prefactor_rate, reduced_pressure
 from granugas.claims import NotMeasured, at_least, at_most, between, claim, claims_in, experiment, runs, value
-from granugas.scene import CLOSE_PACKING
+from granugas.geometry import CLOSE_PACKING
 
 STUDIES = ("tc1998_elastic_n1435", "tc1998_elastic_n42", "tc1998_elastic_n16680")
 EXPERIMENTS = ("volumes",)
@@ -215,7 +215,7 @@ def onset_of_the_solid(data):
 def solid_branch(data):
     """Above .7 there is a solid, whose particles are hindered by their neighbours."""
     found = elastic(data, 16680, low=0.85).isel(area_fraction=-1)
-    return mean_and_error((found["reduced_pressure"] * (1 - found["area_fraction"] / CLOSE_PACKING) / 2).values)
+    return mean_and_error((found["reduced_pressure"] * (1 - found["area_fraction"] / CLOSE_PACKING[2]) / 2).values)
 
 
 @claim(

@@ -8,6 +8,7 @@ import yaml
 
 from granugas import digest, studies
 from granugas.configuration import ConfigError, refuse_duplicate_keys
+from granugas.dynamics.events.effects import modules_of
 from granugas.jobs import Job, claim, damaged, date_now, failures, pass_on_termination, tell_progress, warm_up
 
 HERE = Path(workflow.basedir)
@@ -29,7 +30,6 @@ DRAWINGS = studies.experiments_in(HERE / "workflow/figures")
 TABLES, CLAIMS = (STUDIES.possible(studies.figures_in(HERE / f"workflow/{kind}")) for kind in ("tables", "claims"))
 MEASURED = {kind: studies.experiments_in(HERE / f"workflow/{kind}") for kind in ("tables", "claims")}
 STYLE = [digest.SOURCES / name for name in ("plotting.py", "snapshots.py", "granugas.mplstyle")]
-PHYSICS = digest.digest(digest.EVENTS)
 ANALYSIS = digest.digest(digest.ANALYSIS)
 FORMULAS = digest.digest(["granugas.analysis.*"])
 STORAGE = digest.digest(["granugas.storage.*"])
@@ -53,6 +53,11 @@ if workflow.is_main_process and not {"-n", "--dry-run", "--dryrun"} & {*sys.argv
         print(f"{path} is damaged: a run that needs it makes it again.", file=sys.stderr)
     if number := date_now(OUTPUT):
         print(f"{number} files in {OUTPUT} are dated in the future (was the clock set back?): corrected.", file=sys.stderr)
+
+
+def physics(run):
+    """The digest of what decides a run's numbers, its start state included."""
+    return digest.physics(modules_of(run.scene, run.scene.at_start()))
 
 
 def datasets(names, experiments):

@@ -8,7 +8,7 @@ rule equilibrate:
         f"{OUTPUT}/logs/equilibrate/{{state}}.log",
     params:
         run=lambda wildcards: STATES[wildcards.state],
-        physics=PHYSICS,
+        physics=lambda wildcards: digest.physics(modules_of(STATES[wildcards.state].scene.at_start())),
     priority: lambda wildcards: STATES[wildcards.state].cost
     script:
         "../scripts/equilibrate.py"
@@ -24,7 +24,7 @@ rule simulate:
         f"{OUTPUT}/logs/simulate/{{run}}.log",
     params:
         run=lambda wildcards: RUNS[wildcards.run],
-        physics=PHYSICS,
+        physics=lambda wildcards: physics(RUNS[wildcards.run]),
         keeping=lambda wildcards: KEEPING[wildcards.run],
         checkpoints=f"{OUTPUT}/checkpoints",
     wildcard_constraints:

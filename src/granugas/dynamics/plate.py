@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from granugas.dynamics.events.collisions import restitution
 from granugas.dynamics.events.memory import Record
-from granugas.dynamics.events.state import TALLY
+from granugas.dynamics.events.state import layouts
 
 Numbers = NDArray[np.float64]
 
@@ -81,7 +81,7 @@ class Averages(NamedTuple):
 
 def plate(g: float) -> Plate:
     """A plate that nothing has hit yet."""
-    return Plate(g, Record(np.zeros(1, TALLY)))
+    return Plate(g, Record(np.zeros(1, layouts(1)["tally"])))
 
 
 def time_to_hit(ball: Ball, g: float) -> float:
@@ -99,7 +99,7 @@ def next_hit(rule: Any, ball: Ball, plate: Plate) -> Hit | None:
         return None
     before, since = math.sqrt(ball.v**2 + 2 * plate.g * ball.h), ball.since + flight
     counted = plate.tally.elastic
-    r = restitution(rule, plate, since)
+    r = restitution(rule, plate, 0, 0, -before, since)
     return Hit(flight, before, r * before, since, bool(plate.tally.elastic > counted))
 
 

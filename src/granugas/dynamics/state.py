@@ -1,28 +1,30 @@
 """The state of a gas at one instant: what every kind of dynamics takes and gives back."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
 
 @dataclass
 class State:
-    """All disks at one time.
+    """All particles at one time.
 
     Attributes:
         time: s.
-        box: (Lx, Ly) in m.
-        position: (N, 2), in m, inside the box.
-        velocity: (N, 2), in m/s.
+        box: (Lx, Ly) in m, as many sides as space has dimensions D.
+        position: (N, D), in m, inside the box.
+        velocity: (N, D), in m/s.
         last_collision_time: (N,), in s; -inf where there was none.
         last_collision_interval: (N,), time between the last two collisions in s; inf where there were none.
         collisions: (N,), number of collisions so far.
+        more: arrays (N, ...) of what effects know of each particle (diameter, mass, spin ...), by name.
     """
 
     time: float
-    box: tuple[float, float]
+    box: tuple[float, ...]
     position: np.ndarray
     velocity: np.ndarray
     last_collision_time: np.ndarray
     last_collision_interval: np.ndarray
     collisions: np.ndarray
+    more: dict[str, np.ndarray] = field(default_factory=dict)

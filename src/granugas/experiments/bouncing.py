@@ -79,7 +79,7 @@ def _collapse(restitution: float) -> xr.Dataset:
 
 def _rest(restitution: float, contact_time: float) -> xr.Dataset:
     """The TC model: how it comes to rest, and what it does there."""
-    rule = ContactTime(restitution, contact_time)
+    rule = ContactTime(Constant(restitution), contact_time)
     run = _from_first_hit(rule)
     dissipative = np.flatnonzero(~run.elastic)
     speed, period = run.after[-1], run.since[-1]
@@ -127,7 +127,7 @@ def _heights() -> xr.Dataset:
     soft = _soft(time[-1])
     heights = {
         "height_hard": state_at(_from_first_hit(Constant(r)), time)[0],
-        "height_contact_time": state_at(_from_first_hit(ContactTime(r, contact_time)), time)[0],
+        "height_contact_time": state_at(_from_first_hit(ContactTime(Constant(r), contact_time)), time)[0],
         "height_soft": np.interp(time, soft.time, soft.h),
     }
     return xr.Dataset({name: ("experiment_time", h) for name, h in heights.items()}, {"experiment_time": time})

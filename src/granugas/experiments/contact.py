@@ -4,6 +4,7 @@ import numpy as np
 import xarray as xr
 
 from granugas.dynamics import soft_contact
+from granugas.dynamics.events.effects.constant import Constant
 from granugas.dynamics.events.effects.contact_time import ContactTime
 from granugas.dynamics.events.engine import Engine
 from granugas.equilibrate import at_rest
@@ -43,7 +44,7 @@ def _hard(times: np.ndarray) -> tuple[np.ndarray, float]:
     apart = (1 + GAP) * DIAMETER / 2
     place = np.array([[side / 2 - apart, side / 2], [side / 2 + apart, side / 2]])
     start = at_rest(place, np.array([[SPEED, 0.0], [-SPEED, 0.0]]), (side, side))
-    engine = Engine(scene, start, rule=ContactTime(RESTITUTION, CONTACT_TIME))
+    engine = Engine(scene, start, rule=ContactTime(Constant(RESTITUTION), CONTACT_TIME))
     positions = np.empty((len(times), 2))
     for row, time in zip(positions, times, strict=True):
         engine.advance(time)

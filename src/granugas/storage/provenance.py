@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from granugas.digest import EVENTS, digest
+from granugas.digest import physics
 
 LIBRARIES = ("numpy", "numba", "xarray", "netCDF4")
 
@@ -24,7 +24,7 @@ def provenance(parameters: Mapping[str, Any]) -> dict[str, Any]:
     return {
         "package": f"granugas {version('granugas')}",
         "commit": commit(),
-        "engine": digest(EVENTS),
+        "engine": physics(),
         "parameters": plain(parameters),
         "machine": f"{platform.machine()}, {os.cpu_count()} processors, {platform.system()} {platform.release()}",
         "python": platform.python_version(),

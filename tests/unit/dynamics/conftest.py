@@ -5,10 +5,8 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from granugas.dynamics.events.effects.constant import Elastic
-from granugas.dynamics.events.effects.nobody import Nobody
 from granugas.dynamics.events.engine import Engine
-from granugas.dynamics.events.state import LAYOUTS, Gas, bundle
+from granugas.dynamics.events.state import Gas, bundle
 from granugas.equilibrate import at_rest
 from granugas.scene import Scene
 
@@ -18,11 +16,11 @@ def gas_of() -> Callable[..., Gas]:
     """The function that puts disks into a box, in d and d/s, every one in its cell and with its next event planned."""
     kept = []
 
-    def make(position, velocity, box, rule=Elastic(), watch=Nobody()) -> Gas:  # noqa: B008
+    def make(position, velocity, box, **effects) -> Gas:
         position, velocity = np.array(position, float), np.array(velocity, float)
         scene = Scene(n_particles=len(position), diameter=1.0, restitution=1.0, contact_time=0.0)
-        engine = Engine(scene, at_rest(position, velocity, box), rule=rule, watch=watch)
+        engine = Engine(scene, at_rest(position, velocity, box), **effects)
         kept.append(engine)  # its arrays are the memory of the gas
-        return bundle({name: engine.arrays[name] for name in LAYOUTS}, rule, watch)
+        return bundle(engine.arrays, engine.effects)
 
     return make

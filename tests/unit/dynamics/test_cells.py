@@ -16,14 +16,15 @@ from granugas.dynamics.events.cells import (
     steps_between,
     wrapped,
 )
-from granugas.dynamics.events.engine import NARROWEST, Engine
+from granugas.dynamics.events.engine import Engine
 from granugas.dynamics.events.state import NOBODY
+from granugas.dynamics.events.tables import NARROWEST
 from granugas.scene import Scene
 
 
 def members(arrays):
     """The disks of each cell's list, by (column, row)."""
-    heads, following, nx = arrays["cells"]["head"], arrays["disks"]["next"], int(arrays["grid"]["nx"][0])
+    heads, following, nx = arrays["cells"]["head"], arrays["disks"]["next"], int(arrays["grid"]["cells"][0, 0])
     found = {}
     for cell, head in enumerate(heads):
         inside, k = [], head
@@ -39,15 +40,14 @@ def check_lists(arrays):
     """Each disk is once in the list of the cell that it names, and in no other."""
     disks = arrays["disks"]
     listed = [(i, *cell) for cell, inside in members(arrays).items() for i in inside]
-    assert sorted(listed) == [(i, int(c["cx"]), int(c["cy"])) for i, c in enumerate(disks)]
+    assert sorted(listed) == [(i, *map(int, c["cell"])) for i, c in enumerate(disks)]
 
 
 def check_places(arrays):
     """No disk is outside of its cell, but for the rounding of a long flight."""
     disks, grid, calendar = arrays["disks"], arrays["grid"][0], arrays["calendar"][0]
-    flown = calendar["now"] - disks["t"]
-    for x, v in (("x", "vx"), ("y", "vy")):
-        assert np.all(np.abs(disks[x] + disks[v] * flown) <= grid[f"half_{x}"] + 1e-15 * (10 + np.abs(disks[x])))
+    flown = (calendar["now"] - disks["t"])[:, np.newaxis]
+    assert np.all(np.abs(disks["x"] + disks["v"] * flown) <= grid["half"] + 1e-15 * (10 + np.abs(disks["x"])))
 
 
 @pytest.mark.parametrize(
@@ -75,10 +75,8 @@ def test_lists_stay_complete(scene):
 @pytest.mark.parametrize("n", [1, 4, 100])
 def test_cells_hold_a_disk_and_fill_the_box(n, box, gas_of):
     grid = gas_of(np.zeros((1, 2)) if n == 1 else np.random.default_rng(0).uniform(0, box, (n, 2)), np.zeros((n, 2)), box).grid
-    for count, width, half, length in (
-        (grid.nx, grid.width_x, grid.half_x, grid.box_x),
-        (grid.ny, grid.width_y, grid.half_y, grid.box_y),
-    ):
+    assert grid.count == grid.cells[0] * grid.cells[1]
+    for count, width, half, length in zip(grid.cells, grid.width, grid.half, grid.box, strict=True):
         assert count * width == pytest.approx(length, rel=1e-15)
         assert half == width / 2
         assert width >= min(NARROWEST, length)
@@ -91,24 +89,24 @@ def listed(gas, n):
     for k in range(n):
         j = gas.near.disk[k]
         while j != NOBODY:
-            found.append((j, gas.near.x[k], gas.near.y[k]))
+            found.append((j, gas.near.at[k][0], gas.near.at[k][1]))
             j = gas.disks.next[j]
     return found
 
 
 @njit
 def around(gas, i):
-    return listed(gas, list_around(gas, gas.disks.cx[i], gas.disks.cy[i]))
+    return listed(gas, list_around(gas.disks.cell[i], gas))
 
 
 @njit
 def ahead(gas, i, step_x, step_y):
-    return listed(gas, list_ahead(gas, gas.disks.cx[i], gas.disks.cy[i], step_x, step_y))
+    return listed(gas, list_ahead((step_x, step_y), gas, gas.disks.cell[i]))
 
 
 def images(position, gas, i):
     """All disks whose cell, in any image of the box, is one of the nine around disk i: number, columns and rows away."""
-    count, width = np.array([gas.grid.nx, gas.grid.ny]), np.array([gas.grid.width_x, gas.grid.width_y])
+    count, width = np.array(gas.grid.cells), np.array(gas.grid.width)
     cells = np.floor(position / width)
     shifts = [count * (a, b) for a in range(-2, 3) for b in range(-2, 3)]
     away = [(j, *(cells[j] + shift - cells[i])) for j in range(len(position)) for shift in shifts]
@@ -124,7 +122,7 @@ def test_all_near_images_are_listed(box, gas_of):
     position = np.random.default_rng(1).uniform(0, box, (8, 2))
     gas = gas_of(position, np.zeros((8, 2)), box)
     for i in range(8):
-        found = sorted((j, x / gas.grid.width_x, y / gas.grid.width_y) for j, x, y in around(gas, i))
+        found = sorted((j, x / gas.grid.width[0], y / gas.grid.width[1]) for j, x, y in around(gas, i))
         assert found == images(position, gas, i)
 
 
@@ -134,7 +132,7 @@ def test_what_is_ahead_is_listed(step, box, gas_of):
     position = np.random.default_rng(2).uniform(0, box, (8, 2))
     gas = gas_of(position, np.zeros((8, 2)), box)
     for i in range(8):
-        found = sorted((j, x / gas.grid.width_x, y / gas.grid.width_y) for j, x, y in ahead(gas, i, *step))
+        found = sorted((j, x / gas.grid.width[0], y / gas.grid.width[1]) for j, x, y in ahead(gas, i, *step))
         assert found == [(j, x, y) for j, x, y in images(position, gas, i) if x * step[0] + y * step[1] == 1]
 
 
@@ -145,7 +143,7 @@ def leave(gas, i):
 
 @njit
 def enter(gas, i, cx, cy):
-    gas.disks.cx[i], gas.disks.cy[i] = cx, cy
+    gas.disks.cell[i] = cx, cy
     enter_cell(gas, i)
 
 
@@ -157,7 +155,7 @@ def test_disks_enter_and_leave(gas_of):
     for i in rng.integers(0, n, 300):
         leave(gas, i)
         assert i not in [j for inside in members(arrays).values() for j in inside]
-        enter(gas, i, *rng.integers(0, [gas.grid.nx, gas.grid.ny]))
+        enter(gas, i, *rng.integers(0, gas.grid.cells))
         check_lists(arrays)
 
 

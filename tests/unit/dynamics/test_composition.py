@@ -17,7 +17,6 @@ from granugas.dynamics.events.collisions import restitution
 from granugas.dynamics.events.composition import implements
 from granugas.dynamics.events.effects.constant import Constant, Elastic
 from granugas.dynamics.events.effects.contact_time import ContactTime
-from granugas.dynamics.events.effects.nobody import Nobody
 from granugas.dynamics.events.engine import Engine
 from granugas.dynamics.events.memory import COMPILED
 from granugas.scene import Scene
@@ -35,16 +34,15 @@ class Marked(NamedTuple):
 
 
 @implements(restitution, Marked)
-def _marked(rule, gas, since):
+def _marked(rule, gas, i, j, u_n, since):
     return MAGIC
 
 
 def compiled(rule) -> str:
     """LLVM code of the loop composed with a rule, without the cache, whose kernels cannot be inspected."""
     engine = Engine(SCENE, lattice_gas(SCENE))
-    tables = {name: engine.arrays[name] for name in layout.LAYOUTS}
     run = numba.njit(error_model="numpy")(loop.run.py_func)
-    run(layout.bundle(tables, rule, Nobody()), 10, 1000)
+    run(layout.bundle(engine.arrays, engine.effects | {"rule": rule}), 10, 1000)
     return next(iter(run.inspect_llvm().values()))
 
 
@@ -56,7 +54,7 @@ def magic_bits() -> str:
 
 @pytest.fixture(scope="module")
 def kernels() -> dict[str, str]:
-    rules = {"elastic": Elastic(), "constant": Constant(0.5), "tc": ContactTime(0.5, 1e-3), "marked": Marked()}
+    rules = {"elastic": Elastic(), "constant": Constant(0.5), "tc": ContactTime(Constant(0.5), 1e-3), "marked": Marked()}
     return {name: compiled(rule) for name, rule in rules.items()}
 
 
@@ -79,7 +77,7 @@ def test_the_kernel_without_the_tc_rule_is_smaller(kernels):
 def test_answers_of_a_kernel_follow_its_rule():
     """The same start, three rules: only TC counts elastic collisions, only r < 1 loses energy."""
     told = {}
-    for name, rule in {"elastic": Elastic(), "constant": Constant(0.5), "tc": ContactTime(0.5, 10.0)}.items():
+    for name, rule in {"elastic": Elastic(), "constant": Constant(0.5), "tc": ContactTime(Constant(0.5), 10.0)}.items():
         engine = Engine(SCENE, lattice_gas(SCENE), rule=rule)
         engine.advance(math.inf, 50)
         tally = engine.take_tally()
@@ -96,19 +94,26 @@ import sys, hashlib, re
 {first}
 import numba
 from granugas.dynamics.events import loop, state as layout
-from granugas.dynamics.events.collisions import restitution
+from granugas.dynamics.events.cast import OTHERWISE
 from granugas.dynamics.events.effects.constant import Elastic
 from granugas.dynamics.events.effects.nobody import Nobody
 from granugas.dynamics.events.memory import allocate
-tables = {{name: allocate(1 if name in layout.RECORDS else 8, rows) for name, rows in layout.LAYOUTS.items()}}
-gas = layout.bundle(tables, Elastic(), Nobody())
+tables = {{name: allocate(1 if name in layout.RECORDS else 8, rows) for name, rows in layout.layouts(2).items()}}
+effects = {{place: effect() for place, effect in OTHERWISE.items()}}
+gas = layout.bundle(tables, effects | {{"rule": Elastic(), "watch": Nobody()}})
 run = numba.njit(error_model="numpy")(loop.run.py_func)
 run.compile((numba.typeof(gas), numba.int64, numba.int64))
 text = next(iter(run.inspect_asm().values()))
 text = re.sub(r"_ZN[A-Za-z0-9_$.]+|\\.const\\.[^\\s,]+|0x[0-9a-f]+", "name", text)
 print(len(text), hashlib.sha256(text.encode()).hexdigest())
 """
-    imports = "import granugas.dynamics.events.engine"
+    imports = """
+import pkgutil
+from importlib import import_module
+from granugas.dynamics.events import effects
+for module in pkgutil.iter_modules(effects.__path__, effects.__name__ + "."):
+    import_module(module.name)
+"""
     printed = [
         subprocess.run([sys.executable, "-c", code.format(first=first)], capture_output=True, text=True, check=True).stdout
         for first in ("", imports)

@@ -7,7 +7,7 @@ import pytest
 from gases import lattice_gas
 
 from granugas.dynamics.events import loop
-from granugas.dynamics.events.engine import Engine, rule_of, watch_of
+from granugas.dynamics.events.engine import Engine
 from granugas.scene import Scene
 
 SCENES = [
@@ -35,7 +35,8 @@ def test_a_continued_run_is_the_uninterrupted_one(scene, collisions):
     first.advance(math.inf, collisions)
     saved = {name: rows.copy() for name, rows in first.arrays.items()}
     first.advance(math.inf, 500)  # the saved copy is not touched
-    second = Engine.resume(scene, first.box, saved)
+    second = Engine(scene, lattice_gas(scene))
+    second.restore(saved)
     assert second.collisions == collisions
     second.advance(math.inf, 2000)
     assert same(straight, second)
@@ -107,8 +108,9 @@ def test_tallies_add_up():
     ],
 )
 def test_a_scene_calls_for_its_effects_only(scene, rule, watch):
-    assert type(rule_of(scene)).__name__ == rule
-    assert type(watch_of(scene)).__name__ == watch
+    engine = Engine(scene, lattice_gas(scene))
+    assert type(engine.rule).__name__ == rule
+    assert type(engine.watch).__name__ == watch
 
 
 def test_a_collapse_names_the_disks():

@@ -41,8 +41,8 @@ def test_without_gravity_only_a_falling_ball_hits():
 def test_the_clock_that_the_ball_brings_along_decides():
     """A Eq. 4: elastic up to t_c, the bound included."""
     ball = Ball(0.5, -2.0, 1.0)
-    assert next_hit(ContactTime(0.5, 1.25), ball, plate(0.0)) == (0.25, 2.0, 2.0, 1.25, True)
-    assert next_hit(ContactTime(0.5, 1.2499), ball, plate(0.0)) == (0.25, 2.0, 1.0, 1.25, False)
+    assert next_hit(ContactTime(Constant(0.5), 1.25), ball, plate(0.0)) == (0.25, 2.0, 2.0, 1.25, True)
+    assert next_hit(ContactTime(Constant(0.5), 1.2499), ball, plate(0.0)) == (0.25, 2.0, 1.0, 1.25, False)
 
 
 def test_the_first_hit_is_the_one_of_v_1():
@@ -66,7 +66,7 @@ def test_a_collapse_is_noticed(r):
 
 def test_a_ball_that_sticks_ends_the_run():
     assert bounce(Constant(0.0), THROWN, G, 10).stop == COLLAPSE
-    assert bounce(ContactTime(0.0, 1e-3), THROWN, G, 10).stop == COLLAPSE
+    assert bounce(ContactTime(Constant(0.0), 1e-3), THROWN, G, 10).stop == COLLAPSE
 
 
 def test_an_elastic_ball_bounces_on_alike():
@@ -94,7 +94,7 @@ def test_no_state_where_the_run_has_none():
 
 @pytest.mark.parametrize(("begin", "end"), [(0.0, 0.05), (0.01, 0.3), (0.2, 0.21), (0.03, 0.55)])
 def test_averages_are_those_of_the_states(begin, end):
-    run, t_c = bounce(ContactTime(0.8, 0.11), THROWN, G, 20), 0.11
+    run, t_c = bounce(ContactTime(Constant(0.8), 0.11), THROWN, G, 20), 0.11
     steps = 200_000
     time = begin + (np.arange(steps) + 0.5) / steps * (end - begin)
     h, v = state_at(run, time)

@@ -16,7 +16,7 @@ FOREVER = 1.0e300
 
 def delay(r, u, longest=FOREVER):
     """With the velocities +-u/2."""
-    return contact_delay(*map(float, r), *map(float, u), float(np.dot(u, u)) / 2, longest)
+    return contact_delay(tuple(map(float, r)), tuple(map(float, u)), 1.0, float(np.dot(u, u)) / 2, longest)
 
 
 def by_roots(r, u):

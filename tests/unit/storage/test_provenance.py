@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 import granugas
-from granugas.digest import EVENTS, digest
+from granugas.digest import physics
 from granugas.storage.provenance import merge, plain, provenance
 
 PROGRAM = "import sys; sys.path.insert(0, '.'); from granugas.storage.provenance import commit; print(commit())"
@@ -18,7 +18,7 @@ def test_provenance_names_versions_sources_parameters_and_machine():
     found = provenance({"scene": {"restitution": np.float64(0.4)}, "snapshots": (0.64, 2.56), "until": None})
     assert json.loads(json.dumps(found)) == found
     assert found["package"] == f"granugas {version('granugas')}"
-    assert found["engine"] == digest(EVENTS)
+    assert found["engine"] == physics()
     assert found["parameters"] == {"scene": {"restitution": 0.4}, "snapshots": [0.64, 2.56], "until": None}
     assert found["libraries"]["numpy"] == np.__version__ and found["libraries"]["netCDF4"] == version("netCDF4")
     assert found["python"].startswith(f"{sys.version_info.major}.")

@@ -1,15 +1,42 @@
 """The collision: A Eqs. 2, 3, 14 and 15, with the coefficient that the rule gives (A Eq. 4)."""
 
 import math
+from typing import NamedTuple
 
 from granugas.dynamics.events.cells import separation
-from granugas.dynamics.events.composition import generic, inline
-from granugas.dynamics.events.flight import position
+from granugas.dynamics.events.composition import generic, implements, inline
+from granugas.dynamics.events.flight import settle
+from granugas.dynamics.events.sizes import reach, reduced_mass, shares
+from granugas.dynamics.events.vectors import along, divided, dot, minus, scaled
+
+
+class Smooth(NamedTuple):
+    """Surfaces that pass on no tangential momentum."""
+
+
+class Nothing(NamedTuple):
+    """Nothing happens after a collision."""
 
 
 @generic
-def restitution(rule, gas, since):
-    """r of a collision (A Eq. 3); `since`: time since the last collision of the partner that collided last (s)."""
+def restitution(rule, gas, i, j, u_n, since):
+    """r of a collision of i and j (A Eq. 3).
+
+    u_n: normal relative velocity before (d/s); since: time since the last collision of the partner that collided last (s).
+    """
+
+
+@generic
+def rub(surface, gas, i, j, n, u, dv_n, since):
+    """What the surfaces of i and j do to each other.
+
+    n: unit vector from i to j; u: relative velocity before; dv_n: change of its normal component.
+    """
+
+
+@generic
+def follow_up(after, gas, i, j, n, u_n, now):
+    """What else a collision does to its partners, after its momentum is passed on."""
 
 
 @inline
@@ -18,41 +45,75 @@ def collide(gas, i, j, now):
 
     Returns the time since the last collision of the partner that collided last, and the normal relative velocity before.
     """
-    disks, clocks, tally = gas.disks, gas.clocks, gas.tally
-    disks.x[i], disks.y[i] = position(gas, i, now)
-    disks.x[j], disks.y[j] = position(gas, j, now)
-    disks.t[i] = disks.t[j] = now
-    nx, ny = separation(gas, i, j)
-    norm = math.sqrt(nx * nx + ny * ny)
-    nx, ny = nx / norm, ny / norm
-    u_n = (disks.vx[j] - disks.vx[i]) * nx + (disks.vy[j] - disks.vy[i]) * ny
+    disks, clocks, tally, sizes = gas.disks, gas.clocks, gas.tally, gas.sizes
+    settle(gas.force, gas, i, now)
+    settle(gas.force, gas, j, now)
+    n = separation(gas, i, j)
+    n = divided(n, math.sqrt(dot(n, n)))
+    u = minus(disks.v[j], disks.v[i])
+    u_n = dot(u, n)
     since_i, since_j = now - clocks.last[i], now - clocks.last[j]
     since = min(since_i, since_j)
-    r = restitution(gas.rule, gas, since)
-    dp = 0.5 * (1.0 + r) * u_n  # A Eq. 2: v_i' = v_i + dp n, v_j' = v_j - dp n
-    _push_apart(disks, i, j, dp * nx, dp * ny)
+    r = restitution(gas.rule, gas, i, j, u_n, since)
+    push(gas, i, j, (1.0 + r) * u_n, n)  # A Eq. 2
     # A Eq. 3 once more: what rounding left of it is not zero on average, and grows with the collisions.
-    left = (disks.vx[j] - disks.vx[i]) * nx + (disks.vy[j] - disks.vy[i]) * ny + r * u_n
-    _push_apart(disks, i, j, 0.5 * left * nx, 0.5 * left * ny)
+    push(gas, i, j, dot(minus(disks.v[j], disks.v[i]), n) + r * u_n, n)
     clocks.last[i] = clocks.last[j] = now
     clocks.interval[i], clocks.interval[j] = since_i, since_j
     disks.collisions[i] += 1
     disks.collisions[j] += 1
-    loss = 0.25 * (1.0 - r * r) * u_n * u_n
     tally.collisions += 1
-    tally.loss += loss
-    tally.loss_time += loss * now
-    tally.xx += dp * nx * nx  # A Eq. 15: dp_a l_b of both partners, l = +-(d/2) n, d = 1
-    tally.xy += dp * nx * ny
-    tally.yx += dp * ny * nx
-    tally.yy += dp * ny * ny
+    lose(tally, 0.5 * reduced_mass(sizes, i, j) * (1.0 - r * r) * u_n * u_n, now)
+    pass_on(n, tally, scaled(n, reduced_mass(sizes, i, j) * (1.0 + r) * u_n), reach(sizes, i, j))
+    rub(gas.surface, gas, i, j, n, u, (1.0 + r) * u_n, since)
+    follow_up(gas.after, gas, i, j, n, u_n, now)
     return since, u_n
 
 
 @inline
-def _push_apart(disks, i, j, dp_x, dp_y):
-    """Momentum by mass (d/s) from disk j to disk i."""
-    disks.vx[i] += dp_x
-    disks.vy[i] += dp_y
-    disks.vx[j] -= dp_x
-    disks.vy[j] -= dp_y
+def push(gas, i, j, change, n):
+    """Change the velocity of i relative to j by `change` along n, each partner by its share; their momentum stays."""
+    disks = gas.disks
+    share_i, share_j = shares(gas.sizes, i, j)
+    disks.v[i] = along(disks.v[i], share_i * change, n)
+    disks.v[j] = along(disks.v[j], -(share_j * change), n)
+
+
+@inline
+def lose(tally, loss, now):
+    """Count energy that is dissipated (m d^2/s^2)."""
+    tally.loss += loss
+    tally.loss_time += loss * now
+
+
+@generic
+def pass_on(n, tally, dp, contact):
+    """Count dp_a l_b of both partners (A Eq. 15): dp is passed on to i, which is nearer to j by `contact` along n."""
+
+
+@implements(pass_on, 1)
+def _pass_on_along_a_line(n, tally, dp, contact):
+    tally.stress[0] = along(tally.stress[0], dp[0] * contact, n)
+
+
+@implements(pass_on, 2)
+def _pass_on_in_a_plane(n, tally, dp, contact):
+    tally.stress[0] = along(tally.stress[0], dp[0] * contact, n)
+    tally.stress[1] = along(tally.stress[1], dp[1] * contact, n)
+
+
+@implements(pass_on, 3)
+def _pass_on_in_space(n, tally, dp, contact):
+    tally.stress[0] = along(tally.stress[0], dp[0] * contact, n)
+    tally.stress[1] = along(tally.stress[1], dp[1] * contact, n)
+    tally.stress[2] = along(tally.stress[2], dp[2] * contact, n)
+
+
+@implements(rub, Smooth)
+def _smooth(surface, gas, i, j, n, u, dv_n, since):
+    return
+
+
+@implements(follow_up, Nothing)
+def _nothing(after, gas, i, j, n, u_n, now):
+    return

@@ -7,15 +7,16 @@ that the loop asks (`restitution(rule, gas, since)`); each effect answers it in 
     def _contact_time(rule, gas, since): ...
 
 The type of an effect is known when the kernel is compiled, so the call compiles to that one answer: the code of any other
-effect is not in the kernel, and a function that answers with a constant leaves no trace. Without the compiler
-(NUMBA_DISABLE_JIT=1) the same call looks the answer up by the class of the effect.
+effect is not in the kernel, and a function that answers with a constant leaves no trace. An effect may hold another one and ask
+it in turn. In the same way a function of vectors has one answer for each number of dimensions (vectors.py). Without the
+compiler (NUMBA_DISABLE_JIT=1) the same call looks the answer up by the class of the effect, or the length of the vector.
 """
 
 from collections.abc import Callable
 from functools import wraps
 from typing import Any
 
-from numba import njit
+from numba import njit, types
 from numba.extending import overload
 
 from granugas.dynamics.events.memory import COMPILED
@@ -32,29 +33,44 @@ kernel = njit(error_model="numpy", cache=True)
 """An entry from Python, kept in the cache of kernels."""
 
 
+ANY = object
+"""In place of a kind: the answer of all that have none of their own."""
+
+
 def generic(question: Callable[..., Any]) -> Callable[..., Any]:
-    """A function of kernels that is answered by the class of its first argument (see `implements`)."""
-    answers: dict[type, Callable[..., Any]] = {}
+    """A function of kernels that is answered by the kind of its first argument (see `implements`)."""
+    answers: dict[type | int, Callable[..., Any]] = {}
 
     @wraps(question)
-    def ask(effect: Any, *arguments: Any) -> Any:
-        return answers[type(effect)](effect, *arguments)
+    def ask(first: Any, *arguments: Any) -> Any:
+        kind = len(first) if type(first) is tuple else type(first)
+        return answers.get(kind, answers.get(ANY))(first, *arguments)
+
+    def choose(first: types.Type, *arguments: types.Type) -> Callable[..., Any] | None:
+        return answers.get(_kind_of(first), answers.get(ANY))
 
     ask.answers = answers
+    if COMPILED:
+        overload(ask, jit_options=OPTIONS, strict=False)(choose)
     return ask
 
 
-def implements(question: Callable[..., Any], effect: type) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
-    """Register the decorated function as the answer of `effect` (a NamedTuple class) to a generic function."""
+def implements(question: Callable[..., Any], kind: type | int) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """Register the decorated function as the answer to a generic function.
+
+    Args:
+        question: the generic function.
+        kind: of its first argument that is answered: an effect (a NamedTuple class), vectors of so many components, or ANY.
+    """
 
     def register(answer: Callable[..., Any]) -> Callable[..., Any]:
-        question.answers[effect] = answer
-        if COMPILED:
-
-            def choose(first: Any, *arguments: Any) -> Callable[..., Any] | None:
-                return answer if getattr(first, "instance_class", None) is effect else None
-
-            overload(question, jit_options=OPTIONS, strict=False)(choose)
+        question.answers[kind] = answer
         return answer
 
     return register
+
+
+def _kind_of(argument: types.Type) -> type | int | None:
+    if isinstance(argument, types.BaseNamedTuple):
+        return argument.instance_class
+    return len(argument) if isinstance(argument, types.BaseTuple) else None

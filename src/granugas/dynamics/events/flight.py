@@ -1,48 +1,165 @@
-"""Free flight: straight lines between collisions, and when they leave a cell."""
+"""Free flight between collisions, and when it leaves a cell. Without a force: straight lines."""
 
 import math
+from typing import NamedTuple
 
-from granugas.dynamics.events.composition import inline
+from granugas.dynamics.events.composition import generic, implements, inline
+from granugas.dynamics.events.vectors import along, mapped, mapped_three
+
+
+class Straight(NamedTuple):
+    """No force."""
+
+
+@generic
+def moved(force, x, v, flown):
+    """Where a disk is that was at x with velocity v, after the time `flown` (d)."""
+
+
+@generic
+def hastened(force, v, flown):
+    """Its velocity then (d/s)."""
+
+
+@generic
+def settle(force, gas, i, time):
+    """Let the flight of disk i begin at `time`, where it is then."""
+
+
+@generic
+def leaves_after(force, x, v, half):
+    """How long until a disk at x leaves its cell, of half widths `half`; infinite for a disk at rest."""
+
+
+@generic
+def next_step(force, x, v, half):
+    """The step, +-1 along one axis, to the cell that it enters then."""
 
 
 @inline
 def position(gas, i, time):
     """Where disk i is at `time`, from the centre of its cell (d)."""
-    disks = gas.disks
-    flown = time - disks.t[i]
-    return disks.x[i] + disks.vx[i] * flown, disks.y[i] + disks.vy[i] * flown
+    return moved(gas.force, gas.disks.x[i], gas.disks.v[i], time - gas.disks.t[i])
 
 
 @inline
-def exit_distances(gas, i, x, y):
-    """How far disk i at (x, y) is from the two edges of its cell that it flies towards (d)."""
-    grid, disks = gas.grid, gas.disks
-    to_x = grid.half_x - x if disks.vx[i] > 0.0 else grid.half_x + x
-    to_y = grid.half_y - y if disks.vy[i] > 0.0 else grid.half_y + y
-    return max(to_x, 0.0), max(to_y, 0.0)
+def velocity(gas, i, time):
+    """Its velocity then (d/s)."""
+    return hastened(gas.force, gas.disks.v[i], time - gas.disks.t[i])
+
+
+# --- straight lines -------------------------------------------------------------------------------------------------------
+
+
+@implements(moved, Straight)
+def _moved_straight(force, x, v, flown):
+    return along(x, flown, v)
+
+
+@implements(hastened, Straight)
+def _not_hastened(force, v, flown):
+    return v
+
+
+@implements(settle, Straight)
+def _settle_straight(force, gas, i, time):
+    gas.disks.x[i] = position(gas, i, time)
+    gas.disks.t[i] = time
+
+
+@implements(leaves_after, Straight)
+def _leaves_straight(force, x, v, half):
+    return first_exit(mapped_three(x, v, half, way_ahead), v)
+
+
+@implements(next_step, Straight)
+def _next_step_straight(force, x, v, half):
+    return step_along(v, axis_of_exit(mapped_three(x, v, half, way_ahead), v))
 
 
 @inline
-def leaves_through_x(gas, i, to_x, to_y):
-    """Does disk i reach the edge in x before the one in y?"""
-    return to_x * abs(gas.disks.vy[i]) < to_y * abs(gas.disks.vx[i])
+def way_ahead(x, v, half):
+    """How far it is along an axis to the edge of the cell that a disk flies towards (d)."""
+    return max(half - x if v > 0.0 else half + x, 0.0)
 
 
 @inline
-def next_step(gas, i, x, y):
-    """The step, (+-1, 0) or (0, +-1), to the cell that disk i at (x, y) enters next."""
-    to_x, to_y = exit_distances(gas, i, x, y)
-    through_x = leaves_through_x(gas, i, to_x, to_y)
-    return (1 if gas.disks.vx[i] > 0.0 else -1) * through_x, (1 if gas.disks.vy[i] > 0.0 else -1) * (not through_x)
+def delay(way, v):
+    """How long a way takes at the speed |v|; infinite at rest."""
+    speed = abs(v)
+    return way / speed if speed > 0.0 else math.inf
+
+
+@generic
+def axis_of_exit(ways, v):
+    """Along which axis a disk first comes to the end of its way there."""
+
+
+@generic
+def first_exit(ways, v):
+    """When that is."""
+
+
+@generic
+def step_along(v, axis):
+    """The step along an axis in the direction of v."""
 
 
 @inline
-def exit_time(gas, i, x, y, now):
-    """When disk i, at (x, y) now, leaves its cell; infinite for a disk at rest."""
-    to_x, to_y = exit_distances(gas, i, x, y)
-    if leaves_through_x(gas, i, to_x, to_y):
-        return now + to_x / abs(gas.disks.vx[i])
-    speed = abs(gas.disks.vy[i])
+def _sign(v):
+    return 1 if v > 0.0 else -1
+
+
+@implements(axis_of_exit, 1)
+def _axis_on_a_line(ways, v):
+    return 0
+
+
+@implements(axis_of_exit, 2)
+def _axis_in_a_plane(ways, v):
+    return 0 if ways[0] * abs(v[1]) < ways[1] * abs(v[0]) else 1
+
+
+@implements(axis_of_exit, 3)
+def _axis_in_space(ways, v):
+    first = mapped(ways, v, delay)
+    if first[0] <= first[1] and first[0] <= first[2]:
+        return 0
+    return 1 if first[1] <= first[2] else 2
+
+
+@implements(first_exit, 1)
+def _exit_on_a_line(ways, v):
+    return delay(ways[0], v[0])
+
+
+@implements(first_exit, 2)
+def _exit_in_a_plane(ways, v):
+    """One division."""
+    if axis_of_exit(ways, v) == 0:
+        return ways[0] / abs(v[0])
+    speed = abs(v[1])
     if speed > 0.0:
-        return now + to_y / speed
-    return math.inf if gas.disks.vx[i] == 0.0 else now + to_x / abs(gas.disks.vx[i])
+        return ways[1] / speed
+    return math.inf if v[0] == 0.0 else ways[0] / abs(v[0])
+
+
+@implements(first_exit, 3)
+def _exit_in_space(ways, v):
+    x, y, z = mapped(ways, v, delay)
+    return min(x, min(y, z))
+
+
+@implements(step_along, 1)
+def _step_on_a_line(v, axis):
+    return (_sign(v[0]),)
+
+
+@implements(step_along, 2)
+def _step_in_a_plane(v, axis):
+    return _sign(v[0]) * (axis == 0), _sign(v[1]) * (axis == 1)
+
+
+@implements(step_along, 3)
+def _step_in_space(v, axis):
+    return _sign(v[0]) * (axis == 0), _sign(v[1]) * (axis == 1), _sign(v[2]) * (axis == 2)

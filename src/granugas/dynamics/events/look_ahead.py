@@ -5,11 +5,12 @@ the one before has brought: the disks of the bin; their partners and the lists o
 cells. Nothing is computed here, and nothing depends on it. It pays where the tables outgrow the cache (engine.py decides).
 """
 
-from granugas.dynamics.events.cells import list_ahead, list_around, wrapped
+from granugas.dynamics.events.cells import index_of, list_ahead, list_around, next_cell
 from granugas.dynamics.events.composition import inline
 from granugas.dynamics.events.flight import next_step
 from granugas.dynamics.events.memory import prefetch
 from granugas.dynamics.events.state import NOBODY, SLOTS
+from granugas.dynamics.events.vectors import plus
 
 
 @inline
@@ -39,40 +40,40 @@ def _fetch_cells(gas, b):
             i = gas.bins.entry[slot]
             j = disks.partner[i]
             if gas.schedule.time[i] < disks.t_coll[i]:
-                step_x, step_y = next_step(gas, i, disks.x[i], disks.y[i])
-                _fetch_heads(gas, disks.cx[i] + step_x, disks.cy[i] + step_y)
-                _fetch_heads(gas, disks.cx[i] + 2 * step_x, disks.cy[i] + 2 * step_y)
+                step = next_step(gas.force, disks.x[i], disks.v[i], gas.grid.half)
+                ahead = plus(disks.cell[i], step)
+                _fetch_heads(gas, ahead)
+                _fetch_heads(gas, plus(ahead, step))
             elif j != NOBODY:
                 prefetch(disks.x, j)
                 prefetch(gas.clocks.last, j)
-                _fetch_heads(gas, disks.cx[i], disks.cy[i])
+                _fetch_heads(gas, disks.cell[i])
 
 
 @inline
-def _fetch_heads(gas, cx, cy):
-    """The lists of the cell and of those above and below; the ones beside them mostly come along."""
-    head, nx, last = gas.cells.head, gas.grid.nx, gas.grid.nx * gas.grid.ny - 1
-    cell = cy * nx + cx
-    prefetch(head, min(max(cell, 0), last))
-    prefetch(head, min(max(cell - nx, 0), last))
-    prefetch(head, min(max(cell + nx, 0), last))
+def _fetch_heads(gas, cell):
+    """The lists of the cell and of those a row above and below; the ones beside them mostly come along."""
+    head, row, last = gas.cells.head, gas.grid.cells[0], gas.grid.count - 1
+    here = index_of(cell, gas)
+    prefetch(head, min(max(here, 0), last))
+    prefetch(head, min(max(here - row, 0), last))
+    prefetch(head, min(max(here + row, 0), last))
 
 
 @inline
 def _fetch_neighbours(gas, b):
     if b < gas.calendar.n_bins:
-        disks, grid = gas.disks, gas.grid
+        disks = gas.disks
         for slot in range(b * SLOTS + 1, b * SLOTS + 1 + gas.bins.entry[b * SLOTS]):
             i = gas.bins.entry[slot]
-            cx, cy = disks.cx[i], disks.cy[i]
             j = disks.partner[i]
             if gas.schedule.time[i] < disks.t_coll[i]:
-                step_x, step_y = next_step(gas, i, disks.x[i], disks.y[i])
-                _fetch_near(gas, list_ahead(gas, wrapped(cx + step_x, grid.nx), wrapped(cy + step_y, grid.ny), step_x, step_y))
+                step = next_step(gas.force, disks.x[i], disks.v[i], gas.grid.half)
+                _fetch_near(gas, list_ahead(step, gas, next_cell(gas, disks.cell[i], step)))
             else:
-                _fetch_near(gas, list_around(gas, cx, cy))
+                _fetch_near(gas, list_around(disks.cell[i], gas))
                 if j != NOBODY:
-                    _fetch_near(gas, list_around(gas, disks.cx[j], disks.cy[j]))
+                    _fetch_near(gas, list_around(disks.cell[j], gas))
 
 
 @inline

@@ -2,13 +2,15 @@
 
 import math
 
+from granugas.dynamics.events.boundary import NO_WALL, WALL_AND_CALL, bounce
 from granugas.dynamics.events.calendar import next_event, refresh_if_full
-from granugas.dynamics.events.cells import enter_cell, leave_cell, list_ahead, list_around, wrapped
+from granugas.dynamics.events.cells import enter_cell, leave_cell, list_ahead, list_around, next_cell
 from granugas.dynamics.events.collisions import collide
-from granugas.dynamics.events.composition import generic, inline, kernel
-from granugas.dynamics.events.flight import next_step, position
+from granugas.dynamics.events.composition import ANY, generic, implements, inline, kernel
+from granugas.dynamics.events.flight import next_step, position, velocity
 from granugas.dynamics.events.predict import look_around, plan
 from granugas.dynamics.events.state import NOBODY
+from granugas.dynamics.events.vectors import minus, times
 
 TIME, COLLISIONS, EVENTS, WATCH = 0, 1, 2, 3
 """Why the loop ended: no event is left up to `calendar.until`, a number was reached, or the watch called."""
@@ -20,6 +22,16 @@ def witness(watch, gas, i, j, now, since, u_n):
 
     since: time since the last collision of the partner that collided last (s); u_n: normal relative velocity before (d/s).
     """
+
+
+@generic
+def witness_at_wall(watch, gas, i, now, since, u_n):
+    """The same for disk i and a wall."""
+
+
+@implements(witness_at_wall, ANY)
+def _not_at_walls(watch, gas, i, now, since, u_n):
+    return False
 
 
 @kernel
@@ -34,20 +46,23 @@ def run(gas, most_collisions, most_events):
         now, i = next_event(gas)
         if i == NOBODY:
             return TIME
-        if now < disks.t_coll[i]:
-            _cross(gas, i, now)
-            continue
-        j = disks.partner[i]
         called = False
-        if j != NOBODY:
-            since, u_n = collide(gas, i, j, now)
-            called = witness(gas.watch, gas, i, j, now, since, u_n)
-            _forget(gas, j)
+        if now < disks.t_coll[i]:
+            met = bounce(gas.walls, gas, i, now)
+            if met == NO_WALL:
+                _cross(gas, i, now)
+                continue
+            called = met == WALL_AND_CALL
+            j = NOBODY
+        else:
+            j = disks.partner[i]
+            if j != NOBODY:
+                since, u_n = collide(gas, i, j, now)
+                called = witness(gas.watch, gas, i, j, now, since, u_n)
+                _forget(gas, j)
         _forget(gas, i)
         while i != NOBODY:
-            x, y = position(gas, i, now)
-            look_around(gas, i, x, y, now, list_around(gas, disks.cx[i], disks.cy[i]))
-            plan(gas, i, x, y, now)
+            _look_everywhere(gas, i, now)
             i, j = j, NOBODY
         if called:
             return WATCH
@@ -63,32 +78,36 @@ def _forget(gas, i):
 
 
 @inline
+def _look_everywhere(gas, i, now):
+    """Predict the next event of a disk that knows of none."""
+    x, v = position(gas, i, now), velocity(gas, i, now)
+    look_around(gas, i, x, v, now, list_around(gas.disks.cell[i], gas))
+    plan(gas, i, x, v, now)
+
+
+@inline
 def _cross(gas, i, now):
-    """Disk i enters the next cell, where only the three cells ahead are new to it."""
+    """Disk i enters the next cell, where only the cells ahead are new to it."""
     disks, grid = gas.disks, gas.grid
-    x, y = position(gas, i, now)
-    step_x, step_y = next_step(gas, i, x, y)
+    x, v = position(gas, i, now), velocity(gas, i, now)
+    step = next_step(gas.force, x, v, grid.half)
     leave_cell(gas, i)
-    disks.cx[i] = wrapped(disks.cx[i] + step_x, grid.nx)
-    disks.cy[i] = wrapped(disks.cy[i] + step_y, grid.ny)
-    shift_x, shift_y = step_x * grid.width_x, step_y * grid.width_y
-    disks.x[i] -= shift_x
-    disks.y[i] -= shift_y
+    disks.cell[i] = next_cell(gas, disks.cell[i], step)
+    shift = times(grid.width, step)
+    disks.x[i] = minus(disks.x[i], shift)
     enter_cell(gas, i)
     gas.tally.crossings += 1
-    look_around(gas, i, x - shift_x, y - shift_y, now, list_ahead(gas, disks.cx[i], disks.cy[i], step_x, step_y))
-    plan(gas, i, x - shift_x, y - shift_y, now)
+    x = minus(x, shift)
+    look_around(gas, i, x, v, now, list_ahead(step, gas, disks.cell[i]))
+    plan(gas, i, x, v, now)
 
 
 @kernel
 def start(gas):
     """Predict everything from positions, velocities and cells alone."""
-    disks, n = gas.disks, gas.calendar.n_disks
-    now = gas.calendar.now
+    n, now = gas.calendar.n_disks, gas.calendar.now
     for i in range(n):
         _forget(gas, i)
         enter_cell(gas, i)
     for i in range(n):
-        x, y = position(gas, i, now)
-        look_around(gas, i, x, y, now, list_around(gas, disks.cx[i], disks.cy[i]))
-        plan(gas, i, x, y, now)
+        _look_everywhere(gas, i, now)

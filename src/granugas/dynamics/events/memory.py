@@ -1,9 +1,10 @@
-"""Raw memory of the kernels: tables of rows and single records, read as `p.x[i]` and `clock.now`.
+"""Raw memory of the kernels: tables of rows and single records, read as `disks.x[i]` and `calendar.now`.
 
 A numba array that is handed to a helper drags its reference count and its shape along, which costs a factor 2 to 4 in the hot
 path. Here a table is nothing but the address of a structured numpy array; the offsets of its columns are part of its type, so
-that `p.x[i] += 1.0` compiles to one load and one store. Nothing checks an index in compiled code: with NUMBA_DISABLE_JIT=1 the
-same kernels run as plain Python on numpy columns, where every index is checked.
+that `disks.t[i] += 1.0` compiles to one load and one store. A field with several components is read and written as a tuple, a
+vector of the kernels (vectors.py); a field of several vectors in a record is a column of them. Nothing checks an index in
+compiled code: with NUMBA_DISABLE_JIT=1 the same kernels run as plain Python on numpy columns, where every index is checked.
 """
 
 import operator
@@ -67,7 +68,10 @@ class Record:
         object.__setattr__(self, "address", rows.ctypes.data)
 
     def __getattr__(self, name: str) -> Any:
-        return self.rows[name][0]
+        value = self.rows[name][0]
+        if np.ndim(value) == 2:
+            return _CheckedColumn(value, name)
+        return tuple(value) if np.ndim(value) else value
 
     def __setattr__(self, name: str, value: Any) -> None:
         self.rows[name][0] = value
@@ -85,7 +89,8 @@ class _CheckedColumn:
         return index
 
     def __getitem__(self, index: int) -> Any:
-        return self._values[self._check(index)]
+        value = self._values[self._check(index)]
+        return tuple(value) if np.ndim(value) else value
 
     def __setitem__(self, index: int, value: Any) -> None:
         self._values[self._check(index)] = value
@@ -99,7 +104,7 @@ class _RowsType(types.Type):
 
     def __init__(self, dtype: np.dtype) -> None:
         self.dtype = dtype
-        layout = ",".join(f"{name}:{dtype[name].str}@{dtype.fields[name][1]}" for name in dtype.names)
+        layout = ",".join(f"{name}:{dtype[name].base.str}{dtype[name].shape}@{dtype.fields[name][1]}" for name in dtype.names)
         super().__init__(name=f"{type(self).__name__}({layout};{dtype.itemsize})")
 
 
@@ -112,11 +117,11 @@ class RecordType(_RowsType):
 
 
 class ColumnType(types.Type):
-    """Address of the first entry of a column; the distance between entries belongs to the type."""
+    """Address of the first entry of a column, scalars or vectors; the distance between entries belongs to the type."""
 
-    def __init__(self, scalar: types.Type, stride: int) -> None:
-        self.scalar, self.stride = scalar, stride
-        super().__init__(name=f"Column({scalar},{stride})")
+    def __init__(self, entry: types.Type, stride: int) -> None:
+        self.entry, self.stride = entry, stride
+        super().__init__(name=f"Column({entry},{stride})")
 
 
 for _type in (TableType, RecordType, ColumnType):
@@ -146,12 +151,18 @@ def _unbox_rows(typ: types.Type, value: Any, c: Any) -> NativeValue:
     return NativeValue(native.value, is_error=native.is_error)
 
 
+def _entry(field: np.dtype) -> types.Type:
+    """Type of a field's value: a scalar, or a tuple of its last dimension."""
+    scalar = from_dtype(field.base)
+    return types.UniTuple(scalar, field.shape[-1]) if field.shape else scalar
+
+
 @infer_getattr
 class _TableAttributes(AttributeTemplate):
     key = TableType
 
     def generic_resolve(self, typ: TableType, name: str) -> types.Type | None:
-        return ColumnType(from_dtype(typ.dtype[name]), typ.dtype.itemsize) if name in typ.dtype.names else None
+        return ColumnType(_entry(typ.dtype[name]), typ.dtype.itemsize) if name in typ.dtype.names else None
 
 
 @infer_getattr
@@ -159,34 +170,36 @@ class _RecordAttributes(AttributeTemplate):
     key = RecordType
 
     def generic_resolve(self, typ: RecordType, name: str) -> types.Type | None:
-        return from_dtype(typ.dtype[name]) if name in typ.dtype.names else None
+        if name not in typ.dtype.names:
+            return None
+        field = typ.dtype[name]
+        return ColumnType(_entry(field), field.itemsize // field.shape[0]) if field.ndim == 2 else _entry(field)
+
+
+def _offset(builder: Any, typ: _RowsType, address: Any, name: str) -> Any:
+    return builder.add(address, ir.Constant(ir.IntType(64), typ.dtype.fields[name][1]))
 
 
 @lower_getattr_generic(TableType)
 def _column_of(context: Any, builder: Any, typ: TableType, value: Any, name: str) -> Any:
-    return builder.add(value, ir.Constant(ir.IntType(64), typ.dtype.fields[name][1]))
+    return _offset(builder, typ, value, name)
 
 
 @lower_getattr_generic(RecordType)
 def _read_field(context: Any, builder: Any, typ: RecordType, value: Any, name: str) -> Any:
-    return builder.load(_pointer_to_field(context, builder, typ, value, name))
+    address = _offset(builder, typ, value, name)
+    return address if typ.dtype[name].ndim == 2 else _load_entry(context, builder, _entry(typ.dtype[name]), address)
 
 
 @lower_setattr_generic(RecordType)
 def _write_field(context: Any, builder: Any, sig: Any, args: Any, name: str) -> None:
     typ, value_type = sig.args
-    value = context.cast(builder, args[1], value_type, from_dtype(typ.dtype[name]))
-    builder.store(value, _pointer_to_field(context, builder, typ, args[0], name))
-
-
-def _pointer_to_field(context: Any, builder: Any, typ: RecordType, value: Any, name: str) -> Any:
-    address = builder.add(value, ir.Constant(ir.IntType(64), typ.dtype.fields[name][1]))
-    return builder.inttoptr(address, context.get_data_type(from_dtype(typ.dtype[name])).as_pointer())
+    _store_entry(context, builder, _entry(typ.dtype[name]), _offset(builder, typ, args[0], name), args[1], value_type)
 
 
 @type_callable(operator.getitem)
 def _type_getitem(context: Any) -> Any:
-    return lambda column, index: column.scalar if isinstance(column, ColumnType) and isinstance(index, types.Integer) else None
+    return lambda column, index: column.entry if isinstance(column, ColumnType) and isinstance(index, types.Integer) else None
 
 
 @type_callable(operator.setitem)
@@ -198,27 +211,48 @@ def _type_setitem(context: Any) -> Any:
 
 @lower_builtin(operator.getitem, ColumnType, types.Integer)
 def _load(context: Any, builder: Any, sig: Any, args: Any) -> Any:
-    return builder.load(_pointer_to_entry(context, builder, sig, args))
+    return _load_entry(context, builder, sig.args[0].entry, _address_of_entry(context, builder, sig, args))
 
 
 @lower_builtin(operator.setitem, ColumnType, types.Integer, types.Any)
 def _store(context: Any, builder: Any, sig: Any, args: Any) -> Any:
-    value = context.cast(builder, args[2], sig.args[2], sig.args[0].scalar)
-    builder.store(value, _pointer_to_entry(context, builder, sig, args))
+    address = _address_of_entry(context, builder, sig, args)
+    _store_entry(context, builder, sig.args[0].entry, address, args[2], sig.args[2])
     return context.get_dummy_value()
 
 
-def _pointer_to_entry(context: Any, builder: Any, sig: Any, args: Any) -> Any:
+def _address_of_entry(context: Any, builder: Any, sig: Any, args: Any) -> Any:
     column, index_type = sig.args[:2]
     index = context.cast(builder, args[1], index_type, types.int64)
-    address = builder.add(args[0], builder.mul(index, ir.Constant(ir.IntType(64), column.stride)))
-    return builder.inttoptr(address, context.get_data_type(column.scalar).as_pointer())
+    return builder.add(args[0], builder.mul(index, ir.Constant(ir.IntType(64), column.stride)))
+
+
+def _load_entry(context: Any, builder: Any, entry: types.Type, address: Any) -> Any:
+    if not isinstance(entry, types.UniTuple):
+        return builder.load(_pointer(context, builder, entry, address, 0))
+    parts = [builder.load(_pointer(context, builder, entry.dtype, address, k)) for k in range(entry.count)]
+    return context.make_tuple(builder, entry, parts)
+
+
+def _store_entry(context: Any, builder: Any, entry: types.Type, address: Any, value: Any, given: types.Type) -> None:
+    if not isinstance(entry, types.UniTuple):
+        builder.store(context.cast(builder, value, given, entry), _pointer(context, builder, entry, address, 0))
+        return
+    for k, (part, kind) in enumerate(zip(cgutils.unpack_tuple(builder, value), given, strict=True)):
+        builder.store(context.cast(builder, part, kind, entry.dtype), _pointer(context, builder, entry.dtype, address, k))
+
+
+def _pointer(context: Any, builder: Any, scalar: types.Type, address: Any, k: int) -> Any:
+    """To the k-th of scalars that follow each other."""
+    size = context.get_abi_sizeof(context.get_data_type(scalar))
+    place = builder.add(address, ir.Constant(ir.IntType(64), k * size))
+    return builder.inttoptr(place, context.get_data_type(scalar).as_pointer())
 
 
 @intrinsic
 def _prefetch(typing_context: Any, column: types.Type, index: types.Type) -> Any:
     def lower(context: Any, builder: Any, sig: Any, args: Any) -> Any:
-        pointer = builder.bitcast(_pointer_to_entry(context, builder, sig, args), cgutils.voidptr_t)
+        pointer = builder.inttoptr(_address_of_entry(context, builder, sig, args), cgutils.voidptr_t)
         flag = ir.IntType(32)
         signature = ir.FunctionType(ir.VoidType(), [cgutils.voidptr_t, flag, flag, flag])
         hint = cgutils.get_or_insert_function(builder.module, signature, "llvm.prefetch.p0")

@@ -7,10 +7,13 @@ happens before, and looks around again at that time, if nobody has found it by t
 
 import math
 
+from granugas.dynamics.events.boundary import goes_on_after
 from granugas.dynamics.events.calendar import cancel, schedule
 from granugas.dynamics.events.composition import inline
-from granugas.dynamics.events.flight import exit_time
+from granugas.dynamics.events.flight import position, velocity
+from granugas.dynamics.events.sizes import reach
 from granugas.dynamics.events.state import NOBODY
+from granugas.dynamics.events.vectors import dot, minus, plus
 
 NOISE = 1.0e-28
 """(1e-14)^2: disks in touch that approach more slowly than 1e-14 of their speeds do so by rounding only."""
@@ -20,43 +23,42 @@ LONGEST = 1.0e300
 
 
 @inline
-def contact_delay(rx, ry, ux, uy, speed_2, longest):
-    """How long until two disks touch, |r + u t| = d = 1; infinite if never or not within `longest`.
+def contact_delay(r, u, reach_2, speed_2, longest):
+    """How long until two disks touch, |r + u t|^2 = reach_2; infinite if never or not within `longest`.
 
-    r, u: separation and relative velocity; speed_2: the sum of the squares of both velocities. The solution is the one
-    without cancellation, c / (-b + sqrt(b^2 - u^2 c)), and it is bounded from below by -c / 2b before any root is taken.
+    r, u: separation and relative velocity; reach_2: square of the distance in contact; speed_2: the sum of the squares of
+    both velocities. The solution is the one without cancellation, c / (-b + sqrt(b^2 - u^2 c)), and it is bounded from below
+    by -c / 2b before any root is taken.
     """
-    b = rx * ux + ry * uy
-    c = rx * rx + ry * ry - 1.0
-    root = b * b - (ux * ux + uy * uy) * c
+    b = dot(r, u)
+    c = dot(r, r) - reach_2
+    root = b * b - dot(u, u) * c
     if max(b, -root, c + 2.0 * b * longest) > 0.0:  # one branch for three: none is foreseeable by itself
         return math.inf
     if c <= 0.0:
-        return 0.0 if b * b > NOISE * speed_2 else math.inf
+        return 0.0 if b * b > NOISE * speed_2 * reach_2 else math.inf
     return c / (math.sqrt(root) - b)
 
 
 @inline
-def look_around(gas, i, x, y, now, n):
-    """Find the next collision of disk i, at (x, y) now, in the n cells listed in `near`; write it into both partners.
+def look_around(gas, i, x, v, now, n):
+    """Find the next collision of disk i, at x with velocity v now, in the n cells listed in `near`.
 
-    A collision counts only if it comes before the next known one of either partner.
+    It is written into both partners. A collision counts only if it comes before the next known one of either partner.
     """
     disks, near = gas.disks, gas.near
-    vx, vy = disks.vx[i], disks.vy[i]
-    speed_2 = vx * vx + vy * vy
+    speed_2 = dot(v, v)
     earliest = disks.t_coll[i]
     found = NOBODY
     for k in range(n):
         j = near.disk[k]
-        from_x, from_y = near.x[k] - x, near.y[k] - y
+        at = minus(near.at[k], x)
         while j != NOBODY:
-            flown = now - disks.t[j]
-            wx, wy = disks.vx[j], disks.vy[j]
-            rx = disks.x[j] + wx * flown + from_x
-            ry = disks.y[j] + wy * flown + from_y
+            w = velocity(gas, j, now)
+            r = plus(position(gas, j, now), at)
+            contact = reach(gas.sizes, i, j)
             longest = min(earliest - now, LONGEST)
-            time = now + contact_delay(rx, ry, wx - vx, wy - vy, speed_2 + wx * wx + wy * wy, longest)
+            time = now + contact_delay(r, minus(w, v), contact * contact, speed_2 + dot(w, w), longest)
             if time < min(earliest, disks.t_coll[j]):
                 earliest, found = time, j
             j = disks.next[j]
@@ -65,12 +67,12 @@ def look_around(gas, i, x, y, now, n):
 
 
 @inline
-def plan(gas, i, x, y, now):
-    """Enter the next event of disk i, at (x, y) now, into the calendar: leaving its cell, or its collision."""
+def plan(gas, i, x, v, now):
+    """Enter the next event of disk i, at x with velocity v now, into the calendar: the end of its cell, or its collision."""
     t_coll = gas.disks.t_coll[i]
-    leaves = exit_time(gas, i, x, y, now)
-    if leaves < t_coll:
-        schedule(gas, i, leaves)
+    goes_on = now + goes_on_after(gas.walls, gas, i, x, v, now)
+    if goes_on < t_coll:
+        schedule(gas, i, goes_on)
     else:
         _schedule_collision(gas, i, t_coll)
 
@@ -88,8 +90,8 @@ def _schedule_collision(gas, i, t_coll):
 def _pair(gas, i, j, time):
     """i and j meet at `time`; whoever they were to meet before is left alone."""
     disks = gas.disks
-    _leave(gas, disks.partner[i])
-    _leave(gas, disks.partner[j])
+    leave_partner(gas, i)
+    leave_partner(gas, j)
     disks.partner[i], disks.partner[j] = j, i
     disks.t_coll[i], disks.t_coll[j] = time, time
     if gas.schedule.time[j] > time:
@@ -97,8 +99,9 @@ def _pair(gas, i, j, time):
 
 
 @inline
-def _leave(gas, m):
-    """Disk m has lost its partner; it looks around again when they would have met."""
+def leave_partner(gas, i):
+    """Whom disk i was to meet has lost its partner, and looks around again when they would have met."""
+    m = gas.disks.partner[i]
     if m != NOBODY:
         gas.disks.partner[m] = NOBODY
         if gas.schedule.time[m] > gas.disks.t_coll[m]:

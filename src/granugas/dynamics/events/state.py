@@ -1,10 +1,12 @@
 """What the kernels work on: the layouts of all tables, and the bundle that is handed from function to function.
 
-Units inside the engine: length d (diameter), time s, mass m. Positions are relative to the centre of the particle's cell, so
-that their precision does not depend on the size of the box and no minimum image is ever taken. Times are relative to
-`calendar.base`, which follows the simulation, so that their precision does not depend on how long it has run.
+Units inside the engine: length d (diameter), time s, mass m (of a particle, the mean one where they differ). Positions are
+relative to the centre of the particle's cell, so that their precision does not depend on the size of the box and no minimum
+image is ever taken. Times are relative to `calendar.base`, which follows the simulation, so that their precision does not
+depend on how long it has run.
 """
 
+from functools import cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -17,45 +19,11 @@ NOBODY = -1
 SLOTS = 8
 """Entries of a bin of the calendar: a count and seven disks, half a cache line."""
 
-DISKS = np.dtype(
-    [
-        ("x", "f8"),  # at time t, from the centre of the cell (d)
-        ("y", "f8"),
-        ("vx", "f8"),  # d/s
-        ("vy", "f8"),
-        ("t", "f8"),  # start of the present flight (s)
-        ("t_coll", "f8"),  # with `partner`; without one: no collision is known before that time
-        ("partner", "i4"),
-        ("next", "i4"),  # in the list of the cell
-        ("cx", "i2"),  # cell
-        ("cy", "i2"),
-        ("collisions", "i4"),
-    ]
-)
-"""One cache line a disk: all that a prediction reads."""
-
 CLOCKS = np.dtype([("last", "f8"), ("interval", "f8")])
 """Time of a disk's last collision, and the time between the last two (s)."""
 
 CELLS = np.dtype([("head", "i4")])
 """First disk of each cell's list."""
-
-NEAR = np.dtype([("x", "f8"), ("disk", "i8"), ("y", "f8")])
-"""Scratch: the disks of a block of cells, and where the centres of their cells are (d)."""
-
-GRID = np.dtype(
-    [
-        ("nx", "i8"),
-        ("ny", "i8"),
-        ("width_x", "f8"),
-        ("width_y", "f8"),
-        ("half_x", "f8"),
-        ("half_y", "f8"),
-        ("box_x", "f8"),
-        ("box_y", "f8"),
-    ]
-)
-"""Cells of the box; lengths in d."""
 
 SCHEDULE = np.dtype([("time", "f8")])
 """Next event of each disk; infinite where the partner answers for it."""
@@ -88,25 +56,65 @@ CALENDAR = np.dtype(
     ]
 )
 
-TALLY = np.dtype(
-    [
+RECORDS = ("grid", "calendar", "tally")
+"""Tables of one row."""
+
+
+@cache
+def layouts(dimensions: int) -> dict[str, np.dtype]:
+    """The layout of each table; vectors have as many components as space has dimensions."""
+    vector, cell = ("f8", (dimensions,)), ("i2", (dimensions,))
+    disks = [
+        ("x", *vector),  # at time t, from the centre of the cell (d)
+        ("v", *vector),  # d/s
+        ("t", "f8"),  # start of the present flight (s)
+        ("t_coll", "f8"),  # with `partner`; without one: no collision is known before that time
+        ("partner", "i4"),
+        ("next", "i4"),  # in the list of the cell
+        ("cell", *cell),
+        ("collisions", "i4"),
+    ]
+    near = [("at", *vector), ("disk", "i8")]  # scratch: first disks of a block of cells, and where the cells' centres are (d)
+    grid = [  # cells of the box; lengths in d
+        ("cells", "i8", (dimensions,)),  # along each axis
+        ("width", *vector),
+        ("half", *vector),
+        ("box", *vector),
+        ("count", "i8"),  # of all cells
+    ]
+    tally = [  # sums over the collisions since the tally was last taken
         ("taken", "i8"),  # collisions of all tallies before
         ("collisions", "i8"),
         ("elastic", "i8"),  # by the TC rule
         ("crossings", "i8"),
         ("loss", "f8"),  # energy dissipated (m d^2/s^2)
         ("loss_time", "f8"),  # sum of loss times the time when it happened, from calendar.base
-        ("xx", "f8"),  # sum of dp_a l_b over both partners of every collision (A Eq. 15)
-        ("xy", "f8"),
-        ("yx", "f8"),
-        ("yy", "f8"),
+        ("stress", "f8", (dimensions, dimensions)),  # dp_a l_b over both partners of every collision (A Eq. 15)
     ]
-)
-"""Sums over the collisions since the tally was last taken."""
+    return {
+        "disks": _in_cache_lines(disks),
+        "clocks": CLOCKS,
+        "cells": CELLS,
+        "near": np.dtype(near),
+        "grid": np.dtype(grid),
+        "schedule": SCHEDULE,
+        "bins": BINS,
+        "heap": HEAP,
+        "calendar": CALENDAR,
+        "tally": np.dtype(tally),
+    }
+
+
+def _in_cache_lines(fields: list[tuple]) -> np.dtype:
+    """Rows of a whole number of cache lines: all that a prediction reads of a disk lies in one, in 3D in two."""
+    packed = np.dtype(fields)
+    names, size = packed.names, -(-packed.itemsize // 64) * 64
+    offsets = [packed.fields[name][1] for name in names]
+    return np.dtype({"names": names, "formats": [packed[name] for name in names], "offsets": offsets, "itemsize": size})
 
 
 class Gas(NamedTuple):
-    """All that a kernel touches; `rule` and `watch` are effects (composition.py)."""
+    """All that a kernel touches: tables, and from `rule` on the effects of the scene (composition.py, effects/)."""
 
     disks: Table
     clocks: Table
@@ -120,24 +128,19 @@ class Gas(NamedTuple):
     tally: Record
     rule: Any
     watch: Any
+    force: Any
+    walls: Any
+    sizes: Any
+    surface: Any
+    after: Any
 
 
-LAYOUTS = {
-    "disks": DISKS,
-    "clocks": CLOCKS,
-    "cells": CELLS,
-    "near": NEAR,
-    "grid": GRID,
-    "schedule": SCHEDULE,
-    "bins": BINS,
-    "heap": HEAP,
-    "calendar": CALENDAR,
-    "tally": TALLY,
-}
-RECORDS = ("grid", "calendar", "tally")
+EFFECTS = Gas._fields[Gas._fields.index("rule") :]
+"""Names of the places that effects take."""
 
 
-def bundle(arrays: dict[str, np.ndarray], rule: Any, watch: Any) -> Gas:
-    """The arrays (named and laid out as LAYOUTS says) as tables and records, with the scene's effects."""
-    seen = {name: (Record if name in RECORDS else Table)(rows) for name, rows in arrays.items()}
-    return Gas(**seen, rule=rule, watch=watch)
+def bundle(arrays: dict[str, np.ndarray], effects: dict[str, Any]) -> Gas:
+    """The arrays (named and laid out as `layouts` says) as tables and records, with an effect for each of EFFECTS."""
+    names = Gas._fields[: -len(EFFECTS)]
+    seen = {name: (Record if name in RECORDS else Table)(arrays[name]) for name in names}
+    return Gas(**seen, **effects)

@@ -14,6 +14,9 @@ import numpy as np
 from granugas.dynamics.events.composition import implements
 from granugas.dynamics.events.loop import witness
 from granugas.dynamics.events.memory import Record, Table
+from granugas.dynamics.events.vectors import dot
+from granugas.dynamics.state import State
+from granugas.scene import Scene
 
 RESOLUTION = 1.0e-13
 """Unresolved distance (d)."""
@@ -34,8 +37,13 @@ class CollapseWatch(NamedTuple):
     involved: Table
     count: Record
 
+    def members(self) -> np.ndarray:
+        """Numbers of the particles, ascending."""
+        rows = self.involved.rows[: self.count.n]
+        return np.unique(np.concatenate([rows["i"], rows["j"]])).astype(np.int64)
 
-def collapse_watch() -> CollapseWatch:
+
+def effect_of(scene: Scene, state: State) -> CollapseWatch:
     """A watch that has seen nothing yet."""
     return CollapseWatch(Table(np.zeros(UNRESOLVED, INVOLVED)), Record(np.zeros(1, COUNT)))
 
@@ -49,6 +57,5 @@ def _collapse_watch(watch, gas, i, j, now, since, u_n):
         return True
     watch.involved.i[k], watch.involved.j[k] = i, j
     watch.count.n = k + 1
-    disks = gas.disks
-    speed_2 = disks.vx[i] ** 2 + disks.vy[i] ** 2 + disks.vx[j] ** 2 + disks.vy[j] ** 2
-    return k + 1 == UNRESOLVED or u_n * u_n < REST * REST * speed_2
+    v, w = gas.disks.v[i], gas.disks.v[j]
+    return k + 1 == UNRESOLVED or u_n * u_n < REST * REST * (dot(v, v) + dot(w, w))

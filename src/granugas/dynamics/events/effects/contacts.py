@@ -8,6 +8,7 @@ from granugas.dynamics.events.cells import separation
 from granugas.dynamics.events.composition import implements
 from granugas.dynamics.events.loop import witness
 from granugas.dynamics.events.memory import Record, Table
+from granugas.dynamics.events.vectors import dot, minus
 
 SEEN = np.dtype([("time", "f8"), ("x", "f8"), ("y", "f8"), ("nx", "f8"), ("ny", "f8"), ("dp", "f8")])
 """Time (s); the point of contact (d), up to half a diameter outside of the box; the unit vector from the one disk to the other;
@@ -41,12 +42,13 @@ def _contacts(watch, gas, i, j, now, since, u_n):
     disks, grid, seen, k = gas.disks, gas.grid, watch.seen, watch.count.n
     if k == watch.size:
         return True
-    nx, ny = separation(gas, i, j)  # of length 1: they touch
+    n = separation(gas, i, j)  # of length 1: they touch
     seen.time[k] = gas.calendar.base + (gas.calendar.base_low + now)
-    seen.x[k] = disks.x[i] + (disks.cx[i] + 0.5) * grid.width_x + 0.5 * nx
-    seen.y[k] = disks.y[i] + (disks.cy[i] + 0.5) * grid.width_y + 0.5 * ny
-    seen.nx[k], seen.ny[k] = nx, ny
-    parting = (disks.vx[j] - disks.vx[i]) * nx + (disks.vy[j] - disks.vy[i]) * ny
+    (x, y), (cx, cy), (width_x, width_y) = disks.x[i], disks.cell[i], grid.width
+    seen.x[k] = x + (cx + 0.5) * width_x + 0.5 * n[0]
+    seen.y[k] = y + (cy + 0.5) * width_y + 0.5 * n[1]
+    seen.nx[k], seen.ny[k] = n
+    parting = dot(minus(disks.v[j], disks.v[i]), n)
     seen.dp[k] = 0.5 * (u_n - parting)  # A Eq. 2, whatever the rule
     watch.count.n = k + 1
     return k + 1 == watch.size

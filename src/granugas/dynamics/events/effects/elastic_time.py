@@ -11,6 +11,8 @@ import numpy as np
 from granugas.dynamics.events.composition import implements
 from granugas.dynamics.events.loop import witness
 from granugas.dynamics.events.memory import Table
+from granugas.dynamics.state import State
+from granugas.scene import Scene
 
 TIMES = np.dtype([("t_c", "f8"), ("held", "f8")])
 """t_c (s), and the time that particles were elastic between two collisions (s)."""
@@ -21,6 +23,19 @@ class ElasticTime(NamedTuple):
 
     times: Table
     size: int
+
+    def take(self, scene: Scene) -> dict[str, np.ndarray]:
+        """The times between collisions the second of which came since they were last taken (s)."""
+        held = self.times.rows["held"].copy()
+        self.times.rows["held"] = 0
+        return {"elastic_time": held}
+
+
+def effect_of(scene: Scene, state: State) -> ElasticTime:
+    """The watch of elastic disks with contact times."""
+    times = np.zeros(len(scene.contact_times), TIMES)
+    times["t_c"] = sorted(scene.contact_times)
+    return ElasticTime(Table(times), len(times))
 
 
 @implements(witness, ElasticTime)

@@ -1,0 +1,24 @@
+"""The effects of a scene: the files that it calls for, and what the places hold that it does not name."""
+
+from importlib import import_module
+from typing import Any
+
+from granugas.dynamics.events.boundary import Periodic
+from granugas.dynamics.events.collisions import Nothing, Smooth
+from granugas.dynamics.events.effects import called_by
+from granugas.dynamics.events.flight import Straight
+from granugas.dynamics.events.sizes import Equal
+from granugas.dynamics.state import State
+from granugas.scene import Scene
+
+OTHERWISE = {"force": Straight, "walls": Periodic, "sizes": Equal, "surface": Smooth, "after": Nothing}
+"""The effect of a place that a scene does not name."""
+
+
+def effects_of(scene: Scene, state: State) -> dict[str, Any]:
+    """The effect of each place (state.EFFECTS); `state` has what they know of each particle."""
+    files = {place: import_module(f"granugas.dynamics.events.effects.{name}") for place, name in called_by(scene).items()}
+    material = files.pop("material").effect_of(scene, state)
+    effects = {place: effect() for place, effect in OTHERWISE.items()}
+    effects["rule"] = files.pop("rule").effect_of(scene, state, material)
+    return effects | {place: file.effect_of(scene, state) for place, file in files.items()}
