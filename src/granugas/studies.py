@@ -89,6 +89,7 @@ class Studies:
         left_out: figures that `all` cannot build, with the studies that are missing.
         all_wanted: whether the configuration asks for all there is.
         animations: by name.
+        small_experiments: whether experiments take their small plan, where they have one.
     """
 
     output: str
@@ -98,6 +99,7 @@ class Studies:
     left_out: Mapping[str, tuple[str, ...]]
     all_wanted: bool
     animations: Mapping[str, Animation]
+    small_experiments: bool = False
 
     def possible(self, products: Mapping[str, tuple[str, ...]]) -> dict[str, tuple[str, ...]]:
         """Those products (tables, claims) whose studies are all configured."""
@@ -171,7 +173,8 @@ def load(config: Mapping[str, Any], schema: Mapping[str, Any], figures: Mapping[
         wanted = _asked_for(whole["figures"], possible | overviews, left_out)
         left_out = {}
     output = str(PurePath(whole["output"]))
-    return Studies(output, studies, possible | overviews, wanted, left_out, everything, animations)
+    small = whole["small_experiments"]
+    return Studies(output, studies, possible | overviews, wanted, left_out, everything, animations, small)
 
 
 def figures_in(folder: Path) -> dict[str, tuple[str, ...]]:
@@ -186,6 +189,11 @@ def figures_in(folder: Path) -> dict[str, tuple[str, ...]]:
 def experiments_in(folder: Path) -> dict[str, tuple[str, ...]]:
     """The same files, and the experiments that each needs: its line `EXPERIMENTS = (...)`, if it has one."""
     return {path.stem: _names_in(path, "EXPERIMENTS", ()) for path in _files_in(folder)}
+
+
+def runs_alone(experiment: Path) -> bool:
+    """Whether an experiment times something, so that nothing may run beside it: its line `ALONE = ("...",)` says what."""
+    return bool(_names_in(experiment, "ALONE", ()))
 
 
 def _animation(where: str, block: Mapping[str, Any], studies: Mapping[str, Study]) -> Animation:

@@ -26,6 +26,7 @@ except ConfigError as error:
 
 OUTPUT = STUDIES.output
 STATES, RUNS, CLUSTERS, KEEPING = STUDIES.states(), STUDIES.runs(), STUDIES.clusters(), STUDIES.keeping()
+EXPERIMENTS = digest.SOURCES / "experiments"
 DRAWINGS = studies.experiments_in(HERE / "workflow/figures")
 TABLES, CLAIMS = (STUDIES.possible(studies.figures_in(HERE / f"workflow/{kind}")) for kind in ("tables", "claims"))
 MEASURED = {kind: studies.experiments_in(HERE / f"workflow/{kind}") for kind in ("tables", "claims")}

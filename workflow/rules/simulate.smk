@@ -41,7 +41,7 @@ use rule simulate as simulate_without_positions with:
         run=".+(?<!_xy)",
 
 
-# Measurements that are no study of a gas: one ball on a plate, two soft disks, ...
+# Measurements that are no study of a gas: one ball on a plate, two soft disks, ... Nothing runs beside one that times something.
 rule experiment:
     output:
         f"{OUTPUT}/experiments/{{experiment}}.nc",
@@ -49,5 +49,7 @@ rule experiment:
         f"{OUTPUT}/logs/experiments/{{experiment}}.log",
     params:
         physics=lambda wildcards: digest.digest([f"granugas.experiments.{wildcards.experiment}", *digest.KERNELS]),
+        small=STUDIES.small_experiments,
+    threads: lambda wildcards: workflow.cores if studies.runs_alone(EXPERIMENTS / f"{wildcards.experiment}.py") else 1
     script:
         "../scripts/experiment.py"

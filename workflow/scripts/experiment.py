@@ -1,4 +1,4 @@
-"""Make one experiment: a module of granugas.experiments with a function measure()."""
+"""Make one experiment: a module of granugas.experiments with a function measure(), and perhaps a SMALL plan for it."""
 
 from granugas.jobs import logged
 
@@ -7,5 +7,7 @@ with logged(snakemake.log[0]):
 
     from granugas.storage.dataset import write
 
-    name = snakemake.wildcards.experiment
-    write(import_module(f"granugas.experiments.{name}").measure(), snakemake.output[0], parameters={"experiment": name})
+    name, small = snakemake.wildcards.experiment, snakemake.params.small
+    experiment = import_module(f"granugas.experiments.{name}")
+    plan = [experiment.SMALL] if small and hasattr(experiment, "SMALL") else []
+    write(experiment.measure(*plan), snakemake.output[0], parameters={"experiment": name, "small": bool(plan)})
