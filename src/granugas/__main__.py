@@ -8,7 +8,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any, NoReturn
 
-from granugas.scene import Scene
+from granugas.scene import LATTICES, Scene
 from granugas.storage.damage import DamagedFile
 
 BASE = "config/config.yaml"
@@ -45,7 +45,7 @@ def _run(options: argparse.Namespace) -> int:
         keep_positions=options.keep_positions,
     )
     write(data, options.output, {"scene": scene.as_dict(), "until": until, "seed": options.seed})
-    print(f"{options.output}: {data.attrs['n_particles']} disks until t = {float(data['stop_time']):.6g} s "
+    print(f"{options.output}: {data.attrs['n_particles']} particles until t = {float(data['stop_time']):.6g} s "
           f"({data['stop_reason'].item()}), {int(data['events'])} collisions")  # fmt: skip
     return 0
 
@@ -97,6 +97,7 @@ def _scene(options: argparse.Namespace) -> Scene:
         "contact_time": times[0] if len(times) == 1 else tuple(times),
         "diameter": options.diameter,
         "lattice": options.lattice,
+        "dimensions": options.dimensions,
     }
     return Scene(**values)
 
@@ -111,12 +112,13 @@ class _Parser(argparse.ArgumentParser):
 def _parser() -> argparse.ArgumentParser:
     default = Scene()
     scene = argparse.ArgumentParser(add_help=False)
-    scene.add_argument("--n", type=int, default=default.n_particles, help="number of disks")
+    scene.add_argument("--n", type=int, default=default.n_particles, help="number of particles")
     scene.add_argument("--area-fraction", type=float, default=default.area_fraction)
     scene.add_argument("--restitution", type=float, default=default.restitution)
     scene.add_argument("--contact-time", type=float, nargs="+", default=[default.contact_time], help="s; several at r = 1")
     scene.add_argument("--diameter", type=float, default=default.diameter, help="m")
-    scene.add_argument("--lattice", default=default.lattice, help="start lattice: auto, triangular, square")
+    scene.add_argument("--lattice", default=default.lattice, help=f"start lattice: {', '.join(LATTICES)}")
+    scene.add_argument("--dimensions", type=int, default=default.dimensions, help="of space: 1, 2, 3")
     parser = _Parser(prog="python -m granugas", description=__doc__)
     commands = parser.add_subparsers(required=True)
 

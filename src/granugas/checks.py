@@ -8,7 +8,8 @@ import xarray as xr
 ROUNDING = 1e-12
 SHARES = ("elastic_collision_fraction", "elastic_particle_fraction", "elastic_energy_fraction")
 COUNTS = ("collisions_per_particle", "elastic_collisions_per_particle")
-ALWAYS = ("tau", "kinetic_energy", "kinetic_energy_x", "kinetic_energy_y", *COUNTS, *SHARES[1:])
+ALONG = ("kinetic_energy_x", "kinetic_energy_y", "kinetic_energy_z")
+ALWAYS = ("tau", "kinetic_energy", *COUNTS, *SHARES[1:])
 """Variables with a value at every sample; those over an interval lack one at t = 0, and where nothing collides."""
 
 
@@ -23,15 +24,17 @@ def findings(data: xr.Dataset) -> list[str]:
 def _complete(data: xr.Dataset) -> Iterator[str]:
     """A value at every sample until a run's end, none after it."""
     alive = _times(data) <= data["stop_time"] * (1 + ROUNDING)
-    for name in ALWAYS:
-        yield from _finding(name, "has no value", (data[name].isnull() & alive).astype(float))
+    along = [name for name, axis in zip(ALONG, range(3), strict=True) if np.any(_dimensions(data) > axis)]
+    for name in (*ALWAYS, *along):
+        there = alive & (_dimensions(data) > ALONG.index(name)) if name in along else alive
+        yield from _finding(name, "has no value", (data[name].isnull() & there).astype(float))
         yield from _finding(name, "has a value after the end of the run", (data[name].notnull() & ~alive).astype(float))
 
 
 def _energy(data: xr.Dataset) -> Iterator[str]:
     energy = data["kinetic_energy"]
     yield from _finding("kinetic_energy", "is not 1 at t = 0", abs(energy.isel(time=0) - 1) - ROUNDING)
-    shares = data["kinetic_energy_x"] + data["kinetic_energy_y"]
+    shares = sum(data[name].fillna(0) for name in ALONG if name in data)
     yield from _finding("kinetic_energy", "is not the sum of its shares", abs(energy - shares) - ROUNDING)
     yield from _finding("kinetic_energy", "rises", energy.diff("time") - ROUNDING * 10)
     elastic = _parameter(data, "restitution") == 1
@@ -80,6 +83,11 @@ def _clusters(data: xr.Dataset) -> Iterator[str]:
 def _times(data: xr.Dataset) -> xr.DataArray:
     """Times of the samples in s."""
     return data["sampling_time"] if "sampling_time" in data else data["time"]
+
+
+def _dimensions(data: xr.Dataset) -> xr.DataArray:
+    """Of space: 2 where a dataset does not say."""
+    return _parameter(data, "dimensions") if "dimensions" in {**data.attrs, **data.variables} else xr.DataArray(2)
 
 
 def _parameter(data: xr.Dataset, key: str) -> xr.DataArray:

@@ -25,6 +25,7 @@ EVENTS = (
     "granugas.geometry",
     "granugas.arguments",
     "granugas.doubts",
+    "granugas.lattices.*",
     "granugas.initial",
     "granugas.equilibrate",
     "granugas.sampling",

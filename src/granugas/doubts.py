@@ -20,8 +20,8 @@ RELAXED = 10.0
 FEWEST_CELLS = 3
 """In a box of fewer in one direction, a disk is a neighbour of the images of its neighbours."""
 
-FEWEST_FOR_CLUSTERS = 100
-"""A box of fewer disks is less than ten mean distances wide: a cluster of ten disks meets its own image."""
+FEWEST_FOR_CLUSTERS = 10
+"""A box that is fewer mean distances wide, in 2D one of fewer than 100 disks: a cluster of ten meets its own image."""
 
 logger = logging.getLogger("granugas")
 
@@ -48,27 +48,27 @@ def doubts_before(scene: Scene, start: Mapping[str, Any], cells: Sequence[int], 
     Args:
         scene: what is simulated; at r = 1 any t_c will do, it is only looked at.
         start: attributes of the start state.
-        cells: of the engine, along x and y.
+        cells: of the engine, along each axis.
         keep_positions: whether there will be positions for a cluster analysis.
     """
     n, lines = scene.n_particles, doubts_of_start(scene.n_particles, start)
     longest = max(scene.contact_times) if scene.restitution < 1 else 0.0
-    flight = 1 / float(enskog_rate(scene.area_fraction, scene.velocity_half_width**2 / 3, scene.diameter))
+    flight = 1 / float(enskog_rate(scene.area_fraction, scene.energy_per_mass, scene.diameter, scene.dimensions))
     if longest > flight and n > 1:
         lines.append(
             f"contact_time = {longest:g} s is longer than the mean time between collisions at t = 0, {flight:.4g} s "
             "(A Eq. 19): most collisions are elastic from the start"
         )
     if min(cells) < FEWEST_CELLS:
-        sides = " x ".join(f"{float(start[side]) / scene.diameter:.3g}" for side in ("box_x", "box_y"))
+        sides = " x ".join(f"{float(start[f'box_{axis}']) / scene.diameter:.3g}" for axis in "xyz"[: scene.dimensions])
         lines.append(
-            f"box of {sides} diameters in {cells[0]} x {cells[1]} cells: with fewer than {FEWEST_CELLS} in a direction "
+            f"box of {sides} diameters in {' x '.join(map(str, cells))} cells: with fewer than {FEWEST_CELLS} in a direction "
             "disks meet several images of one neighbour"
         )
-    if keep_positions and n < FEWEST_FOR_CLUSTERS:
+    fewest = FEWEST_FOR_CLUSTERS**scene.dimensions
+    if keep_positions and n < fewest:
         lines.append(
-            f"n_particles = {n}: too few for a cluster analysis, with fewer than {FEWEST_FOR_CLUSTERS} a cluster soon meets "
-            "its own image"
+            f"n_particles = {n}: too few for a cluster analysis, with fewer than {fewest} a cluster soon meets its own image"
         )
     return lines
 

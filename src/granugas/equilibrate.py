@@ -13,7 +13,8 @@ from granugas.arguments import is_number, need_integer, need_scene
 from granugas.doubts import doubts_of_start, tell
 from granugas.dynamics.events.engine import Engine
 from granugas.dynamics.state import State
-from granugas.initial import MELTED_UP_TO, Lattice, random_stream, rescaled, sites, start_lattice, start_velocities
+from granugas.initial import melts, random_stream, rescaled, sites, start_lattice, start_velocities
+from granugas.lattices.lattice import Lattice
 from granugas.progress import Progress
 from granugas.scene import Scene
 from granugas.storage.variables import describe
@@ -31,7 +32,8 @@ OF_PARTICLES = ("diameter", "mass", "spin")
 """What effects know of each particle, where a start state has it."""
 
 MOST_ORDER = 16.0
-"""Largest |sum exp(ikr)|^2 / N at the lattice's wave vectors: a fluid has 1 to 5 on average, a crystal of the order of N."""
+"""Largest |sum exp(ikr)|^2 / N at the lattice's wave vectors: a fluid of disks has 1 to 5 on average, one of spheres 1 to 3,
+beads on a line have 1 (see `_order`), a crystal has of the order of N."""
 
 
 @dataclass(frozen=True)
@@ -40,8 +42,8 @@ class Equilibrium:
 
     Attributes:
         kurtosis: <v^4> / <v^2>^2 of the components, by its value for N disks of this energy and momentum.
-        anisotropy: (E_x - E_y) / E.
-        order: |sum exp(ikr)|^2 / N, the larger of two wave vectors of the start lattice.
+        anisotropy: (E_x - E_y) / E, of the two axes where it is the largest.
+        order: |sum exp(ikr)|^2 / N, the largest at wave vectors of the start lattice along the axes.
         reached: all three are as in equilibrium (the last one only where a crystal has to melt).
     """
 
@@ -59,10 +61,12 @@ def equilibrate(
     collisions_per_particle: float = COLLISIONS_PER_PARTICLE,
     progress: bool = False,
 ) -> xr.Dataset:
-    """The start state of a scene: in equilibrium, at rest as a whole, with E = N m w^2 / 3, at t = 0.
+    """The start state of a scene: in equilibrium, at rest as a whole, with E = D N m w^2 / 6 in D dimensions, at t = 0.
 
     Rounds of elastic collisions follow each other until a round ends in equilibrium (`judge`). The times of the last
-    collisions go on into the run, as negative times. A start above an area fraction of .70 stays the crystal that it was.
+    collisions go on into the run, as negative times. Disks that start above an area fraction of .70, and spheres above a volume
+    fraction of .49, stay the crystal that they were. Beads on a line only exchange their velocities, which were drawn from
+    the normal distribution: collisions make their positions random and nothing else.
 
     Returns:
         Dataset with position (m), velocity (m/s), last_collision_time and last_collision_interval (s) of each particle,
@@ -80,17 +84,16 @@ def equilibrate(
         raise ValueError(f"collisions_per_particle = {collisions_per_particle!r}: allowed is a number > 0")
     lattice = start_lattice(scene)
     rng = random_stream(scene, seed, realization)
-    melts = scene.area_fraction <= MELTED_UP_TO
     start = at_rest(sites(lattice, scene.n_particles, rng), start_velocities(scene, rng), lattice.box)
     elastic = scene.at_start()
     engine = Engine(elastic, start)
-    found, rounds = judge(start, lattice, melts), 0
+    found, rounds = judge(start, lattice, melts(scene), scene.diameter), 0
     bar = Progress("equilibrate", shown=progress)
     while not found.reached and rounds < MOST_ROUNDS and scene.n_particles > 1:
         rounds += 1
         wanted = math.ceil(scene.n_particles * collisions_per_particle / 2)
         bar.follow(engine, collisions=wanted)
-        found = judge(engine.state(), lattice, melts)
+        found = judge(engine.state(), lattice, melts(scene), scene.diameter)
     bar.close()
     done = 2 * engine.collisions / scene.n_particles
     made = _dataset(scene, lattice, _at_time_zero(engine.state(), scene), found, done)
@@ -98,16 +101,20 @@ def equilibrate(
     return made
 
 
-def judge(state: State, lattice: Lattice, melts: bool) -> Equilibrium:
-    """Compare a state with equilibrium; the finite-size value of the kurtosis is that of N - 1 free components an axis."""
-    n = len(state.position)
+def judge(state: State, lattice: Lattice, melts: bool, diameter: float = 0.0) -> Equilibrium:
+    """Compare a state with equilibrium; the finite-size value of the kurtosis is that of N - 1 free components an axis.
+
+    On a line, where collisions change no velocity distribution, the kurtosis is not asked for; there alone the diameter (m)
+    of the beads counts.
+    """
+    n, dimensions = state.position.shape
     free = max(n - 1, 1)
     kurtosis = float(np.mean(velocity_kurtosis(state.velocity)) / (3 * free / (free + 2)))
     uneven = anisotropy(state.velocity)
-    order = max(_order(state, lattice, hk) for hk in ((1, 0), (0, 1)))
+    order = _order(state, lattice, diameter)
     reached = (
-        abs(kurtosis - 1) <= SIGMAS * math.sqrt(24 / (2 * n)) / 3
-        and abs(uneven) <= SIGMAS / math.sqrt(n)
+        (abs(kurtosis - 1) <= SIGMAS * math.sqrt(24 / (dimensions * n)) / 3 or dimensions == 1)
+        and abs(uneven) <= SIGMAS * (2 / dimensions) / math.sqrt(n)
         and (order <= MOST_ORDER or not melts)
         and bool(np.all(state.collisions > 0))
     )
@@ -155,12 +162,18 @@ def box_of(attributes: Mapping[str, Any]) -> tuple[float, ...]:
     return tuple(float(attributes[f"box_{axis}"]) for axis in "xyz" if f"box_{axis}" in attributes)
 
 
-def _order(state: State, lattice: Lattice, hk: tuple[int, int]) -> float:
-    """|sum exp(ikr)|^2 / N at a reciprocal vector of the start lattice (rows of a triangular one are two to a cell)."""
-    rows = lattice.ny / 2 if lattice.kind == "triangular" else lattice.ny
-    number = (hk[0] * lattice.nx, hk[1] * rows * (2 if lattice.kind == "triangular" else 1))
-    phase = 2 * np.pi * (state.position / np.array(state.box)) @ np.array(number)
-    return float(abs(np.exp(1j * phase).sum()) ** 2 / len(phase))
+def _order(state: State, lattice: Lattice, diameter: float) -> float:
+    """|sum exp(ikr)|^2 / N, the largest at the wave vectors of the start lattice along the axes.
+
+    Beads on a line are points that pass through each other if their diameters are taken out of it (Tonks 1936): the order is
+    that of the points, which is 1 on average at every density.
+    """
+    place = state.position / np.array(state.box)
+    if lattice.kind == "line":
+        n = len(place)
+        place = (np.sort(state.position, axis=0) - diameter * np.arange(n)[:, np.newaxis]) / (state.box[0] - n * diameter)
+    phase = 2 * np.pi * place * np.array(lattice.waves)
+    return float(np.max(abs(np.exp(1j * phase).sum(axis=0)) ** 2) / len(phase))
 
 
 def _at_time_zero(state: State, scene: Scene) -> State:
@@ -188,9 +201,8 @@ def _dataset(scene: Scene, lattice: Lattice, state: State, found: Equilibrium, c
     attributes = {
         **{f"box_{axis}": side for axis, side in zip(axes, state.box, strict=True)},
         "lattice_kind": lattice.kind,
-        "lattice_columns": lattice.nx,
-        "lattice_rows": lattice.ny,
-        "branch": "fluid" if scene.area_fraction <= MELTED_UP_TO else "crystal",
+        **dict(zip(("lattice_columns", "lattice_rows", "lattice_layers"), lattice.counts, strict=False)),
+        "branch": "fluid" if melts(scene) else "crystal",
         "equilibration_collisions_per_particle": collisions,
         "equilibration_kurtosis": found.kurtosis,
         "equilibration_anisotropy": found.anisotropy,

@@ -72,7 +72,7 @@ class Record:
         }
         self._windows = {"time": np.full(several, np.nan), "collisions": np.zeros((several, n), np.int64)}
         self._start, self._energy = start, float(kinetic_energy(start.velocity).sum())
-        self._rate = float(enskog_rate(scene.area_fraction, self._energy / n, scene.diameter))
+        self._rate = float(enskog_rate(scene.area_fraction, self._energy / n, scene.diameter, dimensions))
         self._done = 0
         self._sums = {
             "collisions": np.zeros((), np.int64),
@@ -167,7 +167,8 @@ class Record:
             data[name] = (("time", "contact_time"), values) if several else ("time", values[:, 0])
         for name, values in self._particles.items():
             data[name] = (("snapshot", "particle", "axis")[: values.ndim], values)
-        data["initial_y"] = ("particle", self._start.position[:, min(1, len(self._axes) - 1)])
+        if "y" in self._axes:
+            data["initial_y"] = ("particle", self._start.position[:, 1])
         data["enskog_rate"] = self._rate
         for name, values in self._trajectory.items():
             data[name] = (("time", "particle", "axis")[: values.ndim], values)

@@ -7,17 +7,18 @@ from pathlib import Path
 
 from granugas.runs import Run
 
-ENGINE = 260
-"""Bytes a disk of the engine's tables, and of the states that it takes and gives back (measured: 130, and 56 a state)."""
+ENGINE = {1: 220, 2: 260, 3: 370}
+"""Bytes a particle of the engine's tables, and of the states that it takes and gives back, by the dimensions of space
+(measured: 125, 130, 215, and 24 + 16 D a state)."""
 
-START = 48
-"""Bytes a disk of a start state."""
+START = 16
+"""Bytes a particle of a start state, and as many for each axis."""
 
-SNAPSHOT, WINDOW = 56, 8
-"""Bytes a disk of a snapshot, and of the count of collisions before it."""
+SNAPSHOT, WINDOW = 24, 8
+"""Bytes a particle of a snapshot, besides 16 for each axis, and of the count of collisions before it."""
 
-FRAME, MOTION = 16, 12
-"""Bytes a disk of the positions at a sampling time, and of the motion that an animation wants."""
+FRAME, MOTION = 8, 4
+"""Bytes a particle and axis of the positions at a sampling time, and of the motion that an animation wants (and 4 once)."""
 
 SAMPLE, OF_CONTACT_TIME = 240, 40
 """Bytes a sample, measured: what a run writes down and where it stops; and more for each contact time."""
@@ -26,11 +27,12 @@ SAMPLE, OF_CONTACT_TIME = 240, 40
 def memory_of(run: Run) -> int:
     """Bytes that a run needs at most: its realizations one after the other, then all of them as one dataset."""
     n, samples, realizations = run.scene.n_particles, run.samples["count"] + 1, len(run.realizations)
-    frame = FRAME * run.keep_positions + MOTION * run.keep_motion
-    of_disks = n * (8 + frame * samples + (SNAPSHOT + WINDOW) * len(run.snapshots))
+    axes = run.scene.dimensions
+    frame = FRAME * axes * run.keep_positions + (MOTION * axes + 4) * run.keep_motion
+    of_disks = n * (8 + frame * samples + (SNAPSHOT + 16 * axes + WINDOW) * len(run.snapshots))
     kept = of_disks + samples * (SAMPLE + OF_CONTACT_TIME * len(run.scene.contact_times))
     copies = 2 if realizations > 1 else 1
-    return n * (ENGINE + START * realizations) + kept * realizations * copies
+    return n * (ENGINE[axes] + START * (1 + axes) * realizations) + kept * realizations * copies
 
 
 def memory_at_hand() -> int:

@@ -72,7 +72,8 @@ class Run:
 
     @property
     def _label(self) -> str:
-        return f"n{self.scene.n_particles}_nu{self.scene.area_fraction:g}"
+        space = "" if self.scene.dimensions == 2 else f"d{self.scene.dimensions}_"
+        return f"{space}n{self.scene.n_particles}_nu{self.scene.area_fraction:g}"
 
     @property
     def _numbers(self) -> str:
@@ -86,9 +87,10 @@ class Run:
     @property
     def cost(self) -> float:
         """Expected s on one core, to plan with: from the collisions in an elastic gas, in homogeneous cooling, in clusters."""
-        nu, w = self.scene.area_fraction, self.scene.velocity_half_width
-        g = (1 - 7 * nu / 16) / (1 - nu) ** 2
-        rate = math.sqrt(4 / (3 * math.pi)) * w / (self.scene.diameter / 2) * 2 * nu * g
+        from granugas.analysis.enskog import enskog_rate
+
+        scene = self.scene
+        rate = float(enskog_rate(scene.area_fraction, scene.energy_per_mass, scene.diameter, scene.dimensions))
         tau = rate * self.until.get("time", math.inf)
         collisions = tau if self.scene.restitution == 1 else _collisions_in_cooling(tau, self.scene)
         collisions = min(collisions, self.until.get("collisions_per_particle", math.inf))
@@ -100,9 +102,9 @@ def _collisions_in_cooling(tau: float, scene: Scene) -> float:
     """Of a particle: B Eq. 4, or what was measured in clusters at r = .4 (they take over at tau of about 50)."""
     if tau < 50:
         return tau
-    loss = 1 - scene.restitution**2
+    loss = (1 - scene.restitution**2) / (2 * scene.dimensions)
     clustered = 13 * math.sqrt(tau) * (max(*scene.contact_times, 1e-13) / 1e-5) ** -0.227
-    return max(4 / loss * math.log(1 + loss * tau / 4), clustered)
+    return max(math.log(1 + loss * tau) / loss, clustered)
 
 
 def digest_of(content: Any) -> str:

@@ -15,6 +15,10 @@ EXTREME = 1.0e50
 MOST_SLENDER = 1.0e4
 """Ratio of the sides of a box, either way."""
 
+LATTICES = ("auto", "triangular", "square", "cubic", "fcc")
+LATTICES_IN = {1: ("auto",), 2: ("auto", "triangular", "square"), 3: ("auto", "cubic", "fcc")}
+"""Start lattices, and those that there are in so many dimensions."""
+
 
 class SceneError(ValueError):
     """A value that a scene cannot have; says key, value and what is allowed."""
@@ -103,16 +107,16 @@ class Scene:
 
     Attributes:
         n_particles: number of particles N.
-        area_fraction: nu = N pi d^2 / (4 V); in 3D the volume fraction, in 1D the line fraction.
+        area_fraction: nu = N pi d^2 / (4 V); in 3D the volume fraction N pi d^3 / (6 V), in 1D the line fraction N d / V.
         restitution: r of A Eq. 3, in [0, 1].
         contact_time: t_c of A Eq. 4 in s; a tuple of them at restitution 1, where one trajectory serves all.
         diameter: d in m.
         velocity_half_width: w in m/s; components start uniform in +-w, so that E(0) = D N m w^2 / 6 in D dimensions.
         dynamics: the method that moves the particles.
         lattice: start lattice; "auto" holds any N.
-        dimensions: D of space.
+        dimensions: D of space: beads on a ring, disks in a plane, spheres.
         boundary: of the box.
-        aspect_ratio: Lx / Ly of the box; an explicit lattice takes the nearest that it can.
+        aspect_ratio: Lx / Ly of the box, in 3D with Lz = sqrt(Lx Ly); an explicit lattice takes the nearest that it can.
 
     Raises:
         SceneError: a value outside of what is allowed.
@@ -125,21 +129,26 @@ class Scene:
     diameter: float = number(1.0e-3, above=0.0, within=EXTREME, unit="m", start=True)
     velocity_half_width: float = number(0.5, above=0.0, within=EXTREME, unit="m/s", start=True)
     dynamics: str = choice("events")
-    lattice: str = choice("auto", "triangular", "square", start=True)
-    dimensions: int = choice(2, start=True)
+    lattice: str = choice(*LATTICES, start=True)
+    dimensions: int = choice(2, 1, 3, start=True)
     boundary: str = choice("periodic", start=True)
     aspect_ratio: float = number(1.0, above=0.0, within=MOST_SLENDER, start=True)
 
     def __post_init__(self) -> None:
         if isinstance(self.contact_time, (tuple, list)):
             object.__setattr__(self, "contact_time", tuple(self.contact_time))
-        for key in fields(self):
-            key.metadata["check"](key.name, getattr(self, key.name))
+        for key in SCENE_KEYS:
+            check_value(key, getattr(self, key))
         self._refuse_what_does_not_go_together()
 
     def _refuse_what_does_not_go_together(self) -> None:
         packed = number(0.0, above=0.0, at_most=CLOSE_PACKING[self.dimensions], unit="(close packing)", within=EXTREME)
         packed.metadata["check"]("area_fraction", self.area_fraction)
+        if self.lattice not in LATTICES_IN[self.dimensions]:
+            allowed = f"in {self.dimensions} dimensions allowed are {', '.join(LATTICES_IN[self.dimensions])}"
+            raise SceneError("lattice", self.lattice, allowed)
+        if self.dimensions == 1 and self.aspect_ratio != 1:
+            raise SceneError("aspect_ratio", self.aspect_ratio, "allowed is 1 in one dimension: a line has one side")
         if isinstance(self.contact_time, tuple):
             if self.restitution != 1 or not self.contact_time:
                 raise SceneError("contact_time", self.contact_time, "a list (not empty) is allowed at restitution = 1 only")
@@ -149,6 +158,11 @@ class Scene:
     def volume(self) -> float:
         """V = N pi d^2 / (4 nu) in m^2, or what it is in D dimensions, in m^D."""
         return box_volume(self.n_particles, self.area_fraction, self.diameter, self.dimensions)
+
+    @property
+    def energy_per_mass(self) -> float:
+        """E(0)/M = D w^2 / 6 in (m/s)^2, of components that are uniform in +-w, and kept through the equilibration."""
+        return self.dimensions * self.velocity_half_width**2 / 6
 
     @property
     def contact_times(self) -> tuple[float, ...]:
@@ -167,8 +181,19 @@ class Scene:
 
 SCENE_KEYS = tuple(key.name for key in fields(Scene))
 
+CHECKS = {key.name: key.metadata["check"] for key in fields(Scene)}
+
 START_KEYS = tuple(key.name for key in fields(Scene) if key.metadata["start"])
 """Keys that decide a start state."""
+
+
+def check_value(key: str, value: Any) -> None:
+    """See whether a key may hold a value, in some scene or other.
+
+    Raises:
+        SceneError: it never may.
+    """
+    CHECKS[key](key, value)
 
 
 def scene_from(values: Mapping[str, Any]) -> Scene:

@@ -14,7 +14,7 @@ from typing import Any
 from granugas.configuration import MISSING, ConfigError, Written, check_structure, unknown, with_defaults
 from granugas.resources import memory_at_hand, memory_of
 from granugas.runs import DEFAULTS, Run, digest_of
-from granugas.scene import SCENE_KEYS, Scene, SceneError
+from granugas.scene import SCENE_KEYS, Scene, SceneError, check_value
 
 FLOAT_KEYS = {key for key, value in DEFAULTS.items() if isinstance(value, float)}
 
@@ -204,6 +204,8 @@ def _animation(where: str, block: Mapping[str, Any], studies: Mapping[str, Study
     if len(first.realizations) > 1 or any(run.scene != first.scene for run in others):
         allowed = "allowed is a study with one point in its grid and one realization a job"
         raise ConfigError(f"{where}.study", study, allowed)
+    if first.scene.dimensions != 2:
+        raise ConfigError(f"{where}.study", study, "allowed is a study in two dimensions: a film shows disks in a plane")
     return Animation(first, block["colour"])
 
 
@@ -298,7 +300,7 @@ def _axis(places: Mapping[str, str], key: str, value: Any) -> tuple[Any, ...]:
     given = value if isinstance(value, list) else [value]
     values = [_rounded(item) if key in FLOAT_KEYS and type(item) in (int, float) else item for item in given]
     for item in values:
-        _said_here(places, Scene, **{key: item})
+        _said_here(places, check_value, key, item)
     return _distinct(places[key], values)
 
 

@@ -15,7 +15,7 @@ def test_run_writes_a_dataset(tmp_path, capsys):
     data = read(path)
     assert data.sizes == {"time": 6, "snapshot": 1, "particle": 42, "axis": 2}
     assert data.attrs["restitution"] == 0.9
-    assert "42 disks" in capsys.readouterr().out
+    assert "42 particles" in capsys.readouterr().out
 
 
 def test_bench_prints_one_line_of_json(capsys):

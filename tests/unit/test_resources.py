@@ -15,9 +15,9 @@ from granugas.resources import ENGINE, START, memory_at_hand, memory_of
 from granugas.runs import Run
 
 
-def run_of(n=2000, count=10, realizations=(0,), snapshots=(), keep_positions=False, keep_motion=False) -> Run:
+def run_of(n=2000, count=10, realizations=(0,), snapshots=(), keep_positions=False, keep_motion=False, dimensions=2) -> Run:
     samples = {"spacing": "linear", "count": count, "first": 1e-4, "axis": "time"}
-    scene = gg.Scene(n_particles=n)
+    scene = gg.Scene(n_particles=n, dimensions=dimensions)
     return Run(scene, 1, realizations, {"time": 1e-3}, samples, snapshots, 1.0, keep_positions, keep_motion)
 
 
@@ -30,11 +30,15 @@ def run_of(n=2000, count=10, realizations=(0,), snapshots=(), keep_positions=Fal
         run_of(n=20_000, snapshots=tuple(np.linspace(1e-5, 1e-3, 12))),
         run_of(n=20_000, realizations=(0, 1, 2, 3), snapshots=(1e-4, 1e-3)),
         run_of(n=16, count=2000),
+        run_of(n=50_000, dimensions=3),
+        run_of(n=5000, count=100, keep_positions=True, dimensions=3),
+        run_of(n=50_000, dimensions=1),
     ],
-    ids=["disks", "positions", "motion", "snapshots", "realizations", "samples"],
+    ids=["disks", "positions", "motion", "snapshots", "realizations", "samples", "spheres", "positions of spheres", "beads"],
 )
 def test_the_estimate_is_near_what_is_taken(run):
-    perform(run_of(n=100), start_states(run_of(n=100)))  # what compilation takes is apart
+    small = run_of(n=100, dimensions=run.scene.dimensions)
+    perform(small, start_states(small))  # what compilation takes is apart
     states = start_states(run)
     gc.collect()
     tracemalloc.start()
@@ -46,17 +50,18 @@ def test_the_estimate_is_near_what_is_taken(run):
     assert 0.5 < memory_of(run) / taken < 2
 
 
-def test_a_disk_of_the_engine():
-    scene = gg.Scene(n_particles=10_000)
+@pytest.mark.parametrize("dimensions", [1, 2, 3])
+def test_a_particle_of_the_engine(dimensions):
+    scene = gg.Scene(n_particles=10_000, dimensions=dimensions)
     engine = Engine(scene, state_of(gg.equilibrate(scene, collisions_per_particle=1)))
     state = engine.state()
     arrays = (state.position, state.velocity, state.last_collision_time, state.last_collision_interval, state.collisions)
     assert (
         engine.bytes_per_particle
-        < ENGINE - 2 * sum(array.nbytes for array in arrays) / 10_000
+        < ENGINE[dimensions] - 2 * sum(array.nbytes for array in arrays) / 10_000
         < 1.5 * engine.bytes_per_particle
     )
-    assert sum(array.nbytes for array in arrays[:4]) / 10_000 == START
+    assert sum(array.nbytes for array in arrays[:4]) / 10_000 == START * (1 + dimensions)
 
 
 def test_memory_at_hand_is_what_the_shell_allows(monkeypatch):

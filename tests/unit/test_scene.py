@@ -66,8 +66,10 @@ WRONG = [
     ("aspect_ratio", 0.0, "a number > 0"),
     ("aspect_ratio", math.inf, "a number > 0"),
     ("dynamics", "dsmc", "events"),
-    ("lattice", "hexagonal", "auto, triangular, square"),
-    ("dimensions", 3, "2"),
+    ("lattice", "hexagonal", "auto, triangular, square, cubic, fcc"),
+    ("lattice", "cubic", "in 2 dimensions allowed are auto, triangular, square"),
+    ("dimensions", 4, "2, 1, 3"),
+    ("dimensions", 0, "2, 1, 3"),
     ("dimensions", "2", "2"),
     ("boundary", "wall", "periodic"),
 ]
@@ -80,6 +82,28 @@ def test_a_wrong_value_is_named(key, value, allowed):
     assert str(raised.value).startswith(f"{key} = {value!r}: ")
     assert allowed in str(raised.value)
     assert (raised.value.key, raised.value.value) == (key, value)
+
+
+@pytest.mark.parametrize(
+    ("values", "message"),
+    [
+        ({"dimensions": 3, "area_fraction": 0.75}, r"area_fraction = 0\.75: allowed is a number > 0 and <= 0\.74048 "),
+        ({"dimensions": 1, "area_fraction": 1.01}, r"area_fraction = 1\.01: allowed is a number > 0 and <= 1 "),
+        ({"dimensions": 3, "lattice": "square"}, "lattice = 'square': in 3 dimensions allowed are auto, cubic, fcc"),
+        ({"dimensions": 1, "lattice": "square"}, "lattice = 'square': in 1 dimensions allowed are auto"),
+        ({"dimensions": 1, "aspect_ratio": 2.0}, "aspect_ratio = 2.0: allowed is 1 in one dimension"),
+    ],
+)
+def test_what_depends_on_the_dimensions(values, message):
+    with pytest.raises(SceneError, match=message):
+        Scene(**values)
+
+
+def test_volumes_and_energies_in_other_dimensions():
+    line, space = Scene(100, 0.95, dimensions=1), Scene(100, 0.3, dimensions=3)
+    assert 100 * 1e-3 / line.volume == pytest.approx(0.95)
+    assert 100 * math.pi * 1e-9 / 6 / space.volume == pytest.approx(0.3)
+    assert [scene.energy_per_mass for scene in (line, Scene(), space)] == pytest.approx([0.25 / 6, 0.25 / 3, 0.25 / 2])
 
 
 @pytest.mark.parametrize("times", [(), (1e-5, -1.0), (1e-5, math.nan)])

@@ -1,5 +1,7 @@
 """Observables of one instant from the arrays of the particles; all masses are equal."""
 
+from itertools import combinations
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -21,9 +23,13 @@ def velocity_kurtosis(velocity: Numbers) -> Numbers:
 
 
 def anisotropy(velocity: Numbers) -> float:
-    """(K_x - K_y) / K (B Fig. 1d), between -1 and 1 and 0 if no direction is preferred, from velocities (n, 2)."""
-    along_x, along_y = kinetic_energy(velocity)
-    return float((along_x - along_y) / (along_x + along_y))
+    """(K_x - K_y) / K (B Fig. 1d), between -1 and 1 and 0 if no direction is preferred, from velocities (n, dim) in m/s.
+
+    In three dimensions the largest such difference of two axes, in one 0.
+    """
+    along = kinetic_energy(velocity)
+    differences = (a - b for a, b in combinations(along, 2))
+    return float(max(differences, key=abs, default=0.0) / along.sum())
 
 
 def elastic_particle_fraction(last_collision_time: Numbers, time: float, contact_time: ArrayLike) -> Numbers:

@@ -21,10 +21,15 @@ from granugas.analysis.enskog import (  # noqa: F401 - here is where formulas ar
 Numbers = NDArray[np.float64]
 
 ENERGY_OF_ELASTIC_PARTICLES = 5 / 4
-"""e_e / n_e for t_c -> 0 (A Fig. 7), exact in two dimensions: (2D + 1) / (2D)."""
+"""e_e / n_e for t_c -> 0 (A Fig. 7), exact in two dimensions: (2D + 1) / (2D), see `energy_of_elastic_particles`."""
 
 VIRIAL_COEFFICIENTS = (1.0, 1.0, 0.782004, 0.532232, 0.333556)
 """B_k / B_2^(k-1) of hard disks for k = 1 ... 5, where B_2 times the number density is 2 nu."""
+
+
+def energy_of_elastic_particles(dimensions: int) -> float:
+    """e_e / n_e = (2D + 1) / (2D) for t_c -> 0: kinetic energy of a particle at its collision, by the mean one."""
+    return (2 * dimensions + 1) / (2 * dimensions)
 
 
 def virial_pressure(area_fraction: ArrayLike) -> Numbers:
@@ -42,19 +47,25 @@ def elastic_collision_fraction(contact_time: ArrayLike, rate: ArrayLike) -> Numb
     return elastic_particle_fraction(2 * np.asarray(contact_time), rate)
 
 
-def homogeneous_cooling(tau: ArrayLike, restitution: ArrayLike) -> Numbers:
-    """K = [1 + (1 - r^2) tau / 4]^-2 (A Eq. 23, where K is called T; B Eq. 1)."""
-    return (1 + _dissipation(restitution) * np.asarray(tau) / 4) ** -2
+def kolafa_pressure(volume_fraction: ArrayLike) -> Numbers:
+    """P V / (N k T) = [1 + nu + nu^2 - (2/3) nu^3 (1 + nu)] / (1 - nu)^3 of hard spheres (Kolafa; Boublik & Nezbeda 1986)."""
+    nu = np.asarray(volume_fraction, dtype=float)
+    return (1 + nu + nu**2 - 2 / 3 * nu**3 * (1 + nu)) / (1 - nu) ** 3
 
 
-def energy_after_collisions(collisions_per_particle: ArrayLike, restitution: ArrayLike) -> Numbers:
-    """K = exp[-(1 - r^2) / 2 * C/N] in homogeneous cooling (B Eq. 3)."""
-    return np.exp(-_dissipation(restitution) / 2 * np.asarray(collisions_per_particle))
+def homogeneous_cooling(tau: ArrayLike, restitution: ArrayLike, dimensions: int = 2) -> Numbers:
+    """K = [1 + (1 - r^2) tau / 4]^-2 (A Eq. 23, where K is called T; B Eq. 1); in D dimensions (1 - r^2) tau / (2D)."""
+    return (1 + _dissipation(restitution) * np.asarray(tau) / (2 * dimensions)) ** -2
 
 
-def collisions_until(tau: ArrayLike, restitution: ArrayLike) -> Numbers:
-    """C/N = 4 / (1 - r^2) ln K^(-1/2) in homogeneous cooling (B Eq. 4); tau itself at r = 1."""
-    loss, tau = np.broadcast_arrays(_dissipation(restitution) / 4, np.asarray(tau, dtype=float))
+def energy_after_collisions(collisions_per_particle: ArrayLike, restitution: ArrayLike, dimensions: int = 2) -> Numbers:
+    """K = exp[-(1 - r^2) / 2 * C/N] in homogeneous cooling (B Eq. 3); in D dimensions (1 - r^2) / D."""
+    return np.exp(-_dissipation(restitution) / dimensions * np.asarray(collisions_per_particle))
+
+
+def collisions_until(tau: ArrayLike, restitution: ArrayLike, dimensions: int = 2) -> Numbers:
+    """C/N = 4 / (1 - r^2) ln K^(-1/2) in homogeneous cooling (B Eq. 4), 2D / (1 - r^2) in D dimensions; tau itself at r = 1."""
+    loss, tau = np.broadcast_arrays(_dissipation(restitution) / (2 * dimensions), np.asarray(tau, dtype=float))
     elastic = loss == 0
     return np.where(elastic, tau, np.log1p(loss * tau) / np.where(elastic, 1, loss))
 

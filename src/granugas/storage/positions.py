@@ -16,7 +16,7 @@ from granugas.storage.files import chunk_sizes, encoding, labels, replacing
 from granugas.storage.variables import VARIABLES, describe
 
 LEVELS = 2**32 - 1
-"""Steps of the longer side of the box; the code LEVELS itself means that there is no value."""
+"""Steps of the longest side of the box; the code LEVELS itself means that there is no value."""
 
 MOTION = {"trajectory_velocity": "f4", "trajectory_collisions": "i4"}
 VELOCITY_BITS = 10
@@ -26,12 +26,12 @@ VELOCITY_BITS = 10
 def write_positions(dataset: xr.Dataset, path: str | Path) -> None:
     """Write `trajectory`, its motion, coordinates and the global attributes, 4 bytes a number, whole or not at all.
 
-    A position is rounded down to a multiple of L / (2^32 - 1), L the longer side of the box; CF readers find that as
+    A position is rounded down to a multiple of L / (2^32 - 1), L the longest side of the box; CF readers find that as
     `scale_factor`. It is packed time step by time step, so that no second copy is in memory.
 
     Args:
         dataset: a run with `trajectory` (time, particle, axis) in m, in [0, L), NaN after its end, and the attributes
-            `box_x`, `box_y` in m. `trajectory_velocity` and `trajectory_collisions` are written where it has them.
+            `box_x`, `box_y` ... in m. `trajectory_velocity` and `trajectory_collisions` are written where it has them.
 
     Raises:
         KeyError: no trajectory, or no size of the box.
@@ -90,6 +90,7 @@ def _codes(trajectory: xr.DataArray, sides: np.ndarray, scale: float) -> Iterato
     for step in trajectory:
         positions = step.values
         if ((positions < 0) | (positions > sides)).any():
-            raise ValueError(f"trajectory: a position outside of the box, allowed is [0, {sides[0]:g}) x [0, {sides[1]:g}) m")
+            allowed = " x ".join(f"[0, {side:g})" for side in sides)
+            raise ValueError(f"trajectory: a position outside of the box, allowed is {allowed} m")
         codes = np.minimum(np.floor(positions / scale), largest)
         yield np.where(np.isnan(codes), LEVELS, codes).astype(np.uint32)

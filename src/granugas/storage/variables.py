@@ -35,7 +35,9 @@ _INTERVAL = "over the interval since the sample before"
 VARIABLES = {
     # the grid of a study: what a scene is made of
     "n_particles": Variable("1", "number of particles", "N"),
-    "area_fraction": Variable("1", "area fraction of the particles", "nu = N pi d^2 / (4 V)", "A Eq. 16, B section 3"),
+    "area_fraction": Variable(
+        "1", "area fraction of the particles, in 3D their volume fraction", "nu = N pi d^2 / (4 V)", "A Eq. 16, B section 3"
+    ),
     "restitution": Variable("1", "coefficient of restitution", "r", "A Eq. 3"),
     "contact_time": Variable("s", "contact duration of the TC model", "t_c", "A Eq. 4"),
     "diameter": Variable("m", "diameter of the particles", "d = 2 a"),
@@ -48,9 +50,11 @@ VARIABLES = {
     # its start state
     "box_x": Variable("m", "side of the box along x", "L_x"),
     "box_y": Variable("m", "side of the box along y", "L_y"),
+    "box_z": Variable("m", "side of the box along z", "L_z"),
     "lattice_kind": Variable(None, "start lattice that was taken"),
     "lattice_columns": Variable("1", "columns of the start lattice"),
     "lattice_rows": Variable("1", "rows of the start lattice"),
+    "lattice_layers": Variable("1", "layers of the start lattice"),
     "branch": Variable(None, "branch of the equation of state: fluid, or the crystal that the start lattice was"),
     "equilibration_collisions_per_particle": Variable(
         "1", "collisions of a particle before t = 0, counted for both partners", "C/N", "A section 5.3"
@@ -58,7 +62,9 @@ VARIABLES = {
     "equilibration_kurtosis": Variable(
         "1", "kurtosis of the velocity components at t = 0 by its value in equilibrium", "<v^4> / <v^2>^2"
     ),
-    "equilibration_anisotropy": Variable("1", "difference of the energies along x and y at t = 0", "(E_x - E_y)/E"),
+    "equilibration_anisotropy": Variable(
+        "1", "difference of the energies along x and y at t = 0, or of the two axes where it is the largest", "(E_x - E_y)/E"
+    ),
     "equilibration_order": Variable("1", "what is left of the start lattice at t = 0", "|sum exp(ikr)|^2 / N"),
     "equilibration_reached": Variable("1", "whether the start state is in equilibrium: 1, or not: 0"),
     # coordinates
@@ -77,6 +83,7 @@ VARIABLES = {
     "kinetic_energy_y": Variable(
         "1", "kinetic energy of motion along y by the initial energy", "K_y (B: K_z), K = K_x + K_y", "B section 3"
     ),
+    "kinetic_energy_z": Variable("1", "kinetic energy of motion along z by the initial energy", "K_z, K = K_x + K_y + K_z"),
     "collisions_per_particle": Variable(
         "1",
         "collisions of a particle since t = 0, counted for both partners",
@@ -99,16 +106,16 @@ VARIABLES = {
     "elastic_energy_fraction": Variable(
         "1", "fraction of the kinetic energy that elastic particles carry", "e_e = E_e/E", "A section 5.4"
     ),
-    "reduced_pressure": Variable("1", f"reduced pressure {_INTERVAL}", "P_0 = P V/E", "A Eq. 16"),
+    "reduced_pressure": Variable("1", f"reduced pressure {_INTERVAL}", "P_0 = P V/E = P V/(N k T)", "A Eq. 16"),
     **{
         f"collisional_stress_{a}{b}": Variable(
             "1",
             f"collisional stress, component {a}{b}, times V/E, {_INTERVAL}",
-            f"sigma_{a}{b} V/E, P_0 = 1 + (sigma_xx + sigma_yy) V/(2 E)",
+            f"sigma_{a}{b} V/E, P_0 = 1 + (sigma_xx + sigma_yy + sigma_zz) V/(2 E)",
             "A Eq. 15",
         )
-        for a in "xy"
-        for b in "xy"
+        for a in "xyz"
+        for b in "xyz"
     },
     # clusters
     "cluster_count": Variable("1", "number of clusters, single particles included", "I_c", "B Eq. 6"),

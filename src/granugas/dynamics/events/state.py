@@ -63,7 +63,7 @@ RECORDS = ("grid", "calendar", "tally")
 @cache
 def layouts(dimensions: int) -> dict[str, np.dtype]:
     """The layout of each table; vectors have as many components as space has dimensions."""
-    vector, cell = ("f8", (dimensions,)), ("i2", (dimensions,))
+    vector, cell = ("f8", (dimensions,)), ("i4" if dimensions == 1 else "i2", (dimensions,))
     disks = [
         ("x", *vector),  # at time t, from the centre of the cell (d)
         ("v", *vector),  # d/s

@@ -10,14 +10,14 @@ from granugas.dynamics.events.calendar import EVENTS_PER_BIN, HEADROOM
 from granugas.dynamics.events.memory import allocate
 from granugas.dynamics.state import State
 
-CELL_WIDTH = 0.62
-"""Wanted width of a cell in units of the mean distance of disks (measured)."""
+CELL_WIDTH = {1: 1.0, 2: 0.62, 3: 0.62}
+"""Wanted width of a cell in units of the mean distance of particles, by the dimensions of space (measured)."""
 
 NARROWEST, WIDEST = 1.002, 3.0
 """Bounds of the wanted width, by the largest diameter: disks in cells that are not neighbours never touch."""
 
-MOST_CELLS = 32_000
-"""In one direction: columns and rows are counted in two bytes."""
+MOST_CELLS = {1: 2**30, 2: 32_000, 3: 32_000}
+"""In one direction, by the dimensions of space: columns, rows and layers are counted in two bytes, on a line in four."""
 
 LARGE = 30_000
 """Above this number of disks the tables outgrow the cache, and looking ahead pays (measured)."""
@@ -75,10 +75,10 @@ def _grid(n: int, box: tuple[float, ...], walled: Sequence[bool], largest: float
     Between two walls there is one more cell, in which nobody ever is: who looks across a wall, from either side, looks
     there. No image lies behind a wall, so that the box has no end along such an axis.
     """
-    narrowest = NARROWEST * largest
-    wanted = min(max(CELL_WIDTH * (math.prod(box) / n) ** (1 / len(box)), narrowest), WIDEST * largest)
-    grid = allocate(1, layout.layouts(len(box))["grid"])
-    count = np.array([min(max(1, int(length / wanted)), MOST_CELLS) for length in box])
+    narrowest, dimensions = NARROWEST * largest, len(box)
+    wanted = min(max(CELL_WIDTH[dimensions] * (math.prod(box) / n) ** (1 / dimensions), narrowest), WIDEST * largest)
+    grid = allocate(1, layout.layouts(dimensions)["grid"])
+    count = np.array([min(max(1, int(length / wanted)), MOST_CELLS[dimensions]) for length in box])
     grid["width"] = np.array(box) / count
     grid["half"] = grid["width"] / 2
     grid["cells"] = count + np.asarray(walled, int)
