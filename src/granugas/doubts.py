@@ -4,6 +4,7 @@ The lines follow from the scene, its start state and the run, so that equal runs
 """
 
 import logging
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from functools import cache
 from typing import Any
@@ -46,19 +47,21 @@ def doubts_before(scene: Scene, start: Mapping[str, Any], cells: Sequence[int], 
     """What is doubtful already at t = 0.
 
     Args:
-        scene: what is simulated; at r = 1 any t_c will do, it is only looked at.
+        scene: what is simulated; at r = 1 of smooth disks any t_c will do, it is only looked at.
         start: attributes of the start state.
         cells: of the engine, along each axis.
         keep_positions: whether there will be positions for a cluster analysis.
     """
     n, lines = scene.n_particles, doubts_of_start(scene.n_particles, start)
-    longest = max(scene.contact_times) if scene.restitution < 1 else 0.0
+    longest = max(scene.contact_times) if scene.dissipates else 0.0
     flight = 1 / float(enskog_rate(scene.area_fraction, scene.energy_per_mass, scene.diameter, scene.dimensions))
     if longest > flight and n > 1:
         lines.append(
             f"contact_time = {longest:g} s is longer than the mean time between collisions at t = 0, {flight:.4g} s "
             "(A Eq. 19): most collisions are elastic from the start"
         )
+    if scene.friction < math.inf and scene.tangential_restitution == -1:
+        lines.append(f"friction = {scene.friction:g} does nothing: the surfaces are smooth (tangential_restitution = -1)")
     if min(cells) < FEWEST_CELLS:
         sides = " x ".join(f"{float(start[f'box_{axis}']) / scene.diameter:.3g}" for axis in "xyz"[: scene.dimensions])
         lines.append(

@@ -18,6 +18,9 @@ NOTHING: Mapping[str, float] = MappingProxyType({})
 FREQUENCY_WINDOW = 0.9
 """collision_frequency counts a particle's collisions from this part of the time of a snapshot to the snapshot."""
 
+VARYING = ("spin",)
+"""What effects know of each particle that changes with time: kept at snapshots."""
+
 AXES = "xyz"
 
 SERIES = ("tau", "kinetic_energy", "collisions_per_particle", "collision_rate", "reduced_pressure")
@@ -52,7 +55,7 @@ class Record:
         self.snapshots = np.array(sorted(snapshots), dtype=float)
         count, n, dimensions = len(points.points) + 1, scene.n_particles, scene.dimensions
         self._axes = AXES[:dimensions]
-        on_average = (ELASTIC_ON_AVERAGE,) if scene.restitution == 1 and self._contact_times.any() else ()
+        on_average = (ELASTIC_ON_AVERAGE,) if not scene.dissipates and self._contact_times.any() else ()
         self._time = np.full(count, np.nan)
         along = (f"kinetic_energy_{axis}" for axis in self._axes)
         self._pairs = {f"collisional_stress_{a}{b}": (i, j) for i, a in enumerate(self._axes) for j, b in enumerate(self._axes)}
@@ -69,6 +72,7 @@ class Record:
             "last_collision_time": np.full((several, n), np.nan),
             "last_collision_interval": np.full((several, n), np.nan),
             "collision_frequency": np.full((several, n), np.nan),
+            **{name: np.full((several, *start.more[name].shape), np.nan) for name in VARYING if name in start.more},
         }
         self._windows = {"time": np.full(several, np.nan), "collisions": np.zeros((several, n), np.int64)}
         self._start, self._energy = start, float(kinetic_energy(start.velocity).sum())
@@ -118,7 +122,8 @@ class Record:
         so_far = self._sums["elastic_so_far"].copy()
         self._write(state, observed)
         if dt > 0:
-            energy = kinetic_energy(state.velocity).sum() + tally.loss - tally.loss_time / dt  # mean over the interval
+            gone, gone_time = tally.loss + tally.stored, tally.loss_time + tally.stored_time
+            energy = kinetic_energy(state.velocity).sum() + gone - gone_time / dt  # mean over the interval
             stress = -tally.stress / (energy * dt)  # A Eq. 15, times V/E
             self._series["collision_rate"][k] = 2 * tally.collisions / (n * dt)
             self._series["reduced_pressure"][k] = 1 + np.trace(stress) / 2
@@ -140,6 +145,9 @@ class Record:
         keep["position"][k], keep["velocity"][k] = state.position, state.velocity
         keep["last_collision_time"][k] = state.last_collision_time
         keep["last_collision_interval"][k] = state.last_collision_interval
+        for name in VARYING:
+            if name in keep:
+                keep[name][k] = state.more[name]
         if state.time > began:  # at t = 0 there is none
             keep["collision_frequency"][k] = (state.collisions - counted) / (state.time - began)
 

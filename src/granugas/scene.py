@@ -53,16 +53,18 @@ def number(
     above: float | None = None,
     at_most: float = math.inf,
     within: float = math.inf,
+    endless: bool = False,
     unit: str = "",
     **how: bool,
 ) -> Any:
-    """A key that holds a finite number of this range; `within`: a factor, up to which it and its inverse may go."""
+    """A key that holds a number of this range, a finite one unless `endless`; `within`: a factor, up to which it and its
+    inverse may go."""
     low = f">= {at_least:g}" if at_least is not None else f"> {above:g}"
     high = f" and <= {at_most:.6g}" if at_most < math.inf else ""
-    allowed = f"allowed is a number {low}{high}{' ' if unit else ''}{unit}"
+    allowed = f"allowed is a number {low}{high}{', or .inf' if endless else ''}{' ' if unit else ''}{unit}"
 
     def check(key: str, value: Any) -> None:
-        if isinstance(value, bool) or not isinstance(value, Real) or not math.isfinite(value):
+        if isinstance(value, bool) or not isinstance(value, Real) or not (math.isfinite(value) or endless and value == math.inf):
             raise SceneError(key, value, allowed)
         if (at_least is not None and value < at_least) or (above is not None and value <= above) or value > at_most:
             raise SceneError(key, value, allowed)
@@ -117,6 +119,8 @@ class Scene:
         dimensions: D of space: beads on a ring, disks in a plane, spheres.
         boundary: of the box.
         aspect_ratio: Lx / Ly of the box, in 3D with Lz = sqrt(Lx Ly); an explicit lattice takes the nearest that it can.
+        tangential_restitution: beta in [-1, 1], by which a contact reverses the tangential velocity of the surfaces (-1: smooth).
+        friction: mu; a contact passes on no more tangential momentum than mu times the normal one; infinite: no such limit.
 
     Raises:
         SceneError: a value outside of what is allowed.
@@ -133,6 +137,8 @@ class Scene:
     dimensions: int = choice(2, 1, 3, start=True)
     boundary: str = choice("periodic", start=True)
     aspect_ratio: float = number(1.0, above=0.0, within=MOST_SLENDER, start=True)
+    tangential_restitution: float = number(-1.0, at_least=-1.0, at_most=1.0)
+    friction: float = number(math.inf, at_least=0.0, endless=True)
 
     def __post_init__(self) -> None:
         if isinstance(self.contact_time, (tuple, list)):
@@ -149,9 +155,13 @@ class Scene:
             raise SceneError("lattice", self.lattice, allowed)
         if self.dimensions == 1 and self.aspect_ratio != 1:
             raise SceneError("aspect_ratio", self.aspect_ratio, "allowed is 1 in one dimension: a line has one side")
+        if self.dimensions == 1 and self.tangential_restitution > -1:
+            allowed = "beads on a line touch head on, nothing rubs: allowed is -1 at dimensions = 1"
+            raise SceneError("tangential_restitution", self.tangential_restitution, allowed)
         if isinstance(self.contact_time, tuple):
-            if self.restitution != 1 or not self.contact_time:
-                raise SceneError("contact_time", self.contact_time, "a list (not empty) is allowed at restitution = 1 only")
+            if self.dissipates or not self.contact_time:
+                allowed = "a list (not empty) is allowed at restitution = 1 only, and for smooth surfaces"
+                raise SceneError("contact_time", self.contact_time, allowed)
             object.__setattr__(self, "contact_time", tuple(map(float, self.contact_time)))
 
     @property
@@ -163,6 +173,16 @@ class Scene:
     def energy_per_mass(self) -> float:
         """E(0)/M = D w^2 / 6 in (m/s)^2, of components that are uniform in +-w, and kept through the equilibration."""
         return self.dimensions * self.velocity_half_width**2 / 6
+
+    @property
+    def rough(self) -> bool:
+        """Whether surfaces rub: neither beta = -1 nor without friction."""
+        return self.tangential_restitution > -1 and self.friction > 0
+
+    @property
+    def dissipates(self) -> bool:
+        """Whether collisions are other than elastic ones of smooth particles, so that a contact duration has something to do."""
+        return self.restitution < 1 or self.rough
 
     @property
     def contact_times(self) -> tuple[float, ...]:

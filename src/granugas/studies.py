@@ -7,7 +7,7 @@ import ast
 import itertools
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path, PurePath
 from typing import Any
 
@@ -286,11 +286,11 @@ def _scenes(where: str, grid: Mapping[str, Any], settings: Mapping[str, Any]) ->
     times = axes.get("contact_time", (DEFAULTS["contact_time"],))
     for point in itertools.product(*axes.values()):
         values = DEFAULTS | dict(zip(axes, point, strict=True))
-        if values["restitution"] == 1 and len(times) > 1:
+        scene = _said_here(places, Scene, **values)
+        if len(times) > 1 and not scene.dissipates:
             if values["contact_time"] != times[0]:
                 continue
-            values["contact_time"] = tuple(sorted(times))
-        scene = _said_here(places, Scene, **values)
+            scene = replace(scene, contact_time=tuple(sorted(times)))
         _said_here(places, check_lattice, scene)
         yield scene
 

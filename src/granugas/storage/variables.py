@@ -47,6 +47,8 @@ VARIABLES = {
     "dimensions": Variable("1", "dimensions of space", "D"),
     "boundary": Variable(None, "boundary of the box"),
     "aspect_ratio": Variable("1", "ratio of the sides of the box", "L_x / L_y"),
+    "tangential_restitution": Variable("1", "coefficient of tangential restitution", "beta"),
+    "friction": Variable("1", "coefficient of Coulomb friction", "mu"),
     # its start state
     "box_x": Variable("m", "side of the box along x", "L_x"),
     "box_y": Variable("m", "side of the box along y", "L_y"),
@@ -117,6 +119,8 @@ VARIABLES = {
         for a in "xyz"
         for b in "xyz"
     },
+    "rotational_energy": Variable("1", "rotational energy by the initial kinetic energy", "E_rot/E(0)"),
+    "temperature_ratio": Variable("1", "rotational by translational temperature, each of one degree of freedom", "R = T_rot/T_tr"),
     # clusters
     "cluster_count": Variable("1", "number of clusters, single particles included", "I_c", "B Eq. 6"),
     "mean_cluster_size": Variable("1", "mean number of particles in a cluster", "<M> = N/I_c", "B Eq. 7"),
@@ -129,6 +133,7 @@ VARIABLES = {
     "trajectory_velocity": Variable("m s-1", "velocity of a particle at the sampling times, rounded", "v_i"),
     "trajectory_collisions": Variable("1", "collisions of a particle since t = 0 at the sampling times, -1 after the end"),
     "velocity": Variable("m s-1", "velocity of a particle in the frame of the centre of mass", "v_i"),
+    "spin": Variable("s-1", "angular velocity of a particle, in 2D out of the plane", "omega_i"),
     "initial_y": Variable("m", "position of a particle along y at t = 0", "y_i(0)", "B Fig. 6"),
     "last_collision_time": Variable(
         "s", "time of a particle's last collision, negative before dissipation began", "t_n^(i)", "A Eq. 4"

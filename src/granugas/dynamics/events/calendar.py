@@ -119,6 +119,7 @@ def _rebase(gas, shift):
     calendar.until -= shift
     calendar.reached -= shift
     gas.tally.loss_time -= gas.tally.loss * shift
+    gas.tally.stored_time -= gas.tally.stored * shift
     for i in range(calendar.n_disks):
         disks.t[i] -= shift
         disks.t_coll[i] -= shift

@@ -4,7 +4,7 @@ import math
 from typing import NamedTuple
 
 from granugas.dynamics.events.cells import separation
-from granugas.dynamics.events.composition import generic, implements, inline
+from granugas.dynamics.events.composition import ANY, generic, implements, inline
 from granugas.dynamics.events.flight import settle
 from granugas.dynamics.events.sizes import reach, reduced_mass, shares
 from granugas.dynamics.events.vectors import along, divided, dot, minus, scaled
@@ -27,7 +27,12 @@ def restitution(rule, gas, i, j, u_n, since):
 
 
 @generic
-def rub(surface, gas, i, j, n, u, dv_n, since):
+def lossless(rule, gas, i, j, u_n, since):
+    """Whether the rule suspends all dissipation in a collision of i and j, arguments as of `restitution`."""
+
+
+@generic
+def rub(surface, gas, i, j, n, u, dv_n, since, now):
     """What the surfaces of i and j do to each other.
 
     n: unit vector from i to j; u: relative velocity before; dv_n: change of its normal component.
@@ -65,7 +70,7 @@ def collide(gas, i, j, now):
     tally.collisions += 1
     lose(tally, 0.5 * reduced_mass(sizes, i, j) * (1.0 - r * r) * u_n * u_n, now)
     pass_on(n, tally, scaled(n, reduced_mass(sizes, i, j) * (1.0 + r) * u_n), reach(sizes, i, j))
-    rub(gas.surface, gas, i, j, n, u, (1.0 + r) * u_n, since)
+    rub(gas.surface, gas, i, j, n, u, (1.0 + r) * u_n, since, now)
     follow_up(gas.after, gas, i, j, n, u_n, now)
     return since, u_n
 
@@ -84,6 +89,13 @@ def lose(tally, loss, now):
     """Count energy that is dissipated (m d^2/s^2)."""
     tally.loss += loss
     tally.loss_time += loss * now
+
+
+@inline
+def store(tally, energy, now):
+    """Count translational energy that goes over into another kind, which an effect keeps (m d^2/s^2)."""
+    tally.stored += energy
+    tally.stored_time += energy * now
 
 
 @generic
@@ -109,8 +121,13 @@ def _pass_on_in_space(n, tally, dp, contact):
     tally.stress[2] = along(tally.stress[2], dp[2] * contact, n)
 
 
+@implements(lossless, ANY)
+def _as_ever(rule, gas, i, j, u_n, since):
+    return False
+
+
 @implements(rub, Smooth)
-def _smooth(surface, gas, i, j, n, u, dv_n, since):
+def _smooth(surface, gas, i, j, n, u, dv_n, since, now):
     return
 
 

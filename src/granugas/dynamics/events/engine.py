@@ -25,6 +25,7 @@ class Tally:
         loss_time: sum of the losses times the time that was left of the interval (m^2/s).
         stress: (D, D), sum of dp_a l_b over both partners per mass (m^2/s; A Eq. 15).
         more: sums that effects keep, by name.
+        stored, stored_time: as the losses, of translational energy that went over into another kind, such as rotation.
     """
 
     collisions: int
@@ -33,6 +34,8 @@ class Tally:
     loss_time: float
     stress: np.ndarray
     more: dict[str, Any] = field(default_factory=dict)
+    stored: float = 0.0
+    stored_time: float = 0.0
 
 
 class Engine:
@@ -46,6 +49,7 @@ class Engine:
         """Predict all events of a state; `rule`, `watch` ... replace effects that the scene calls for, if they are not None."""
         self.scene = scene
         self.box = state.box
+        self._of_particles = state.more
         self.effects = effects_of(scene, state) | {place: effect for place, effect in instead.items() if effect is not None}
         tables = tables_of(state, scene.diameter)
         self.arrays = tables | {name: rows for place, effect in self.effects.items() for name, rows in _rows_of(place, effect)}
@@ -109,6 +113,9 @@ class Engine:
         here = disks["x"] + disks["v"] * flown + (disks["cell"] + 0.5) * grid["width"][0]
         position = np.mod(here * d, self.box)
         position[position >= self.box] = 0.0
+        more = dict(self._of_particles)
+        for effect in self.effects.values():
+            more |= effect.of_particles() if hasattr(effect, "of_particles") else {}
         return State(
             time=self.time,
             box=self.box,
@@ -117,11 +124,12 @@ class Engine:
             last_collision_time=clocks["last"] + base,
             last_collision_interval=clocks["interval"].copy(),
             collisions=disks["collisions"].astype(np.int64),
+            more=more,
         )
 
     def take_tally(self) -> Tally:
         """The sums over all collisions since the tally was last taken."""
-        t, d2 = self.arrays["tally"][0], self.scene.diameter**2
+        t, d2, reached = self.arrays["tally"][0], self.scene.diameter**2, self._gas.calendar.reached
         done, more = self.collisions, {}
         for effect in self.effects.values():
             more |= effect.take(self.scene) if hasattr(effect, "take") else {}
@@ -129,7 +137,9 @@ class Engine:
             collisions=int(t["collisions"]),
             elastic=more.pop("elastic", np.array([t["elastic"]])),
             loss=float(t["loss"]) * d2,
-            loss_time=float(t["loss"] * self._gas.calendar.reached - t["loss_time"]) * d2,
+            loss_time=float(t["loss"] * reached - t["loss_time"]) * d2,
+            stored=float(t["stored"]) * d2,
+            stored_time=float(t["stored"] * reached - t["stored_time"]) * d2,
             stress=t["stress"] * d2,
             more=more,
         )

@@ -89,6 +89,8 @@ def layouts(dimensions: int) -> dict[str, np.dtype]:
         ("crossings", "i8"),
         ("loss", "f8"),  # energy dissipated (m d^2/s^2)
         ("loss_time", "f8"),  # sum of loss times the time when it happened, from calendar.base
+        ("stored", "f8"),  # translational energy that went over into another kind (m d^2/s^2)
+        ("stored_time", "f8"),  # likewise
         ("stress", "f8", (dimensions, dimensions)),  # dp_a l_b over both partners of every collision (A Eq. 15)
     ]
     return {

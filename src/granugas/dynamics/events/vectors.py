@@ -57,6 +57,16 @@ def with_component(a, axis, value):
 
 
 @generic
+def cross(w, a):
+    """w x a; in a plane w has one component, out of the plane."""
+
+
+@generic
+def torque(a, b):
+    """a x b; in a plane its one component, out of the plane."""
+
+
+@generic
 def zeros_like(a):
     """The vector of zeros."""
 
@@ -209,6 +219,26 @@ def _with_component_2(a, axis, value):
 @implements(with_component, 3)
 def _with_component_3(a, axis, value):
     return (value if axis == 0 else a[0]), (value if axis == 1 else a[1]), (value if axis == 2 else a[2])
+
+
+@implements(cross, 1)
+def _cross_in_a_plane(w, a):
+    return -w[0] * a[1], w[0] * a[0]
+
+
+@implements(cross, 3)
+def _cross_in_space(w, a):
+    return w[1] * a[2] - w[2] * a[1], w[2] * a[0] - w[0] * a[2], w[0] * a[1] - w[1] * a[0]
+
+
+@implements(torque, 2)
+def _torque_in_a_plane(a, b):
+    return (a[0] * b[1] - a[1] * b[0],)
+
+
+@implements(torque, 3)
+def _torque_in_space(a, b):
+    return cross(a, b)
 
 
 @implements(zeros_like, 1)

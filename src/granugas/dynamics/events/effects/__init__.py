@@ -12,12 +12,14 @@ def called_by(scene: Scene) -> dict[str, str]:
     A place that is not named holds what scenes without such an effect do. `material` answers for the coefficient of
     restitution where the rule leaves it to it.
     """
-    dissipates, lasting = scene.restitution < 1, any(scene.contact_times)
+    dissipates, lasting = scene.dissipates, any(scene.contact_times)
     called = {"material": "constant", "rule": "hard", "watch": "nobody"}
     if lasting:
         called["rule"] = "contact_time" if dissipates else "elastic_share"
     if dissipates != lasting:  # without a contact duration they can collapse; elastic ones with one have times to add up
         called["watch"] = "collapse" if dissipates else "elastic_time"
+    if scene.rough:
+        called["surface"] = "rough"
     return called
 
 

@@ -2,7 +2,7 @@
 
 from typing import Any, NamedTuple
 
-from granugas.dynamics.events.collisions import restitution
+from granugas.dynamics.events.collisions import lossless, restitution
 from granugas.dynamics.events.composition import implements
 from granugas.dynamics.state import State
 from granugas.scene import Scene
@@ -18,6 +18,11 @@ class ContactTime(NamedTuple):
 def effect_of(scene: Scene, state: State, material: Any) -> ContactTime:
     """The rule of a scene."""
     return ContactTime(material, float(max(scene.contact_times)))
+
+
+@implements(lossless, ContactTime)
+def _within(rule, gas, i, j, u_n, since):
+    return since <= rule.t_c
 
 
 @implements(restitution, ContactTime)
