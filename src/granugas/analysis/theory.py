@@ -17,6 +17,7 @@ from granugas.analysis.enskog import (  # noqa: F401 - here is where formulas ar
     reduced_pressure,
     rms_speed,
 )
+from granugas.geometry import INERTIA, ROTATIONS
 
 Numbers = NDArray[np.float64]
 
@@ -90,6 +91,31 @@ def sonine_coefficient(restitution: ArrayLike) -> Numbers:
     """
     r = np.asarray(restitution, dtype=float)
     return 16 * (1 - r) * (1 - 2 * r**2) / (73 - 41 * r - 2 * r**2 * (1 - r))
+
+
+# Rough particles (Huthmann & Zippelius, Phys. Rev. E 56 (1997) R6275; Luding, Huthmann, McNamara & Zippelius, Phys. Rev. E 58
+# (1998) 3416): homogeneous cooling with Maxwellian velocities and spins at the temperatures T_tr and T_rot, each of one degree
+# of freedom. beta is the coefficient of tangential restitution; there is no limit of friction.
+
+
+def rough_rates(restitution: ArrayLike, tangential_restitution: ArrayLike, dimensions: int = 2) -> tuple[Numbers, Numbers, Numbers]:
+    """A, B and C of dT_tr = -(4/D) (A T_tr - B T_rot) and dT_rot = (4/D_rot) (B T_tr - C T_rot) per collision of a particle.
+
+    A = (1-r^2)/4 + (D-1) eta (1-eta)/2, B = (D-1) eta^2/(2q), C = (D-1) eta/(2q) (1 - eta/q), eta = q (1+beta)/(2q+2);
+    D_rot = 1 in 2D, 3 in 3D. They are the means, over Maxwellian collisions, of what a collision takes and gives.
+    """
+    q, tangents = INERTIA[dimensions], dimensions - 1
+    eta = q * (1 + np.asarray(tangential_restitution, dtype=float)) / (2 * q + 2)
+    a = _dissipation(restitution) / 4 + tangents * eta * (1 - eta) / 2
+    return a, tangents * eta**2 / (2 * q), tangents * eta / (2 * q) * (1 - eta / q)
+
+
+def rough_temperature_ratio(restitution: ArrayLike, tangential_restitution: ArrayLike, dimensions: int = 2) -> Numbers:
+    """R = T_rot/T_tr at which both cool alike: the root of B R^2 + (k C - A) R - k B = 0, k = D / D_rot; beta > -1."""
+    a, b, c = rough_rates(restitution, tangential_restitution, dimensions)
+    k = dimensions / ROTATIONS[dimensions]
+    half = (k * c - a) / 2
+    return (np.sqrt(half**2 + k * b**2) - half) / b
 
 
 # One ball that bounces on a plate under gravity g (A section 4.2). v_1 is its speed before the first hit, t_1 = 2 v_1 / g.

@@ -165,3 +165,38 @@ def test_released_ball():
     r = np.where((1 + w) ** 2 / (4 * w) <= 1 / 0.9, 1, 0.6)
     by_steps = 12 * unit / 4 * np.mean(w**2 + (r * w) ** 2)
     assert theory.released_square_velocity(1.0, 9.81, 0.6, 0.9) == pytest.approx(by_steps, rel=1e-5)
+
+
+@pytest.mark.parametrize("dimensions", [2, 3])
+@pytest.mark.parametrize("beta", [-0.9, -0.5, 0.0, 0.5, 1.0])
+@pytest.mark.parametrize("r", [1.0, 0.9, 0.5])
+def test_rough_rates_are_means_over_collisions(r, beta, dimensions):
+    """Velocities along n weighted by the rate of collisions; d = m = 1, temperatures 1 and 0.7."""
+    rng, q, n, t_rot = np.random.default_rng(1), {2: 0.5, 3: 0.4}[dimensions], 400_000, 0.7
+    u_n = np.sqrt(2) * rng.rayleigh(size=n)
+    u_t = np.sqrt(2) * rng.normal(size=(dimensions - 1, n))
+    rolling = np.sqrt(2 * t_rot / q) * rng.normal(size=(dimensions - 1, n))  # a (w_i + w_j) x n
+    passed = q * (1 + beta) / (1 + q) / 2 * (u_t - rolling)  # momentum
+    linear = -(1 - r**2) / 4 * u_n**2 + np.sum(passed**2 - passed * u_t, axis=0)
+    turning = np.sum(passed**2 / q + passed * rolling, axis=0)  # a^2/I = 1/q
+    a, b, c = theory.rough_rates(r, beta, dimensions)
+    change_tr, change_rot = -4 / dimensions * (a - b * t_rot), 4 / theory.ROTATIONS[dimensions] * (b - c * t_rot)
+    assert change_tr == pytest.approx(linear.mean() / dimensions, abs=0.004)
+    assert change_rot == pytest.approx(turning.mean() / theory.ROTATIONS[dimensions], abs=0.004)
+
+
+@pytest.mark.parametrize("dimensions", [2, 3])
+def test_rough_temperatures_end_at_their_ratio(dimensions):
+    assert theory.rough_temperature_ratio(1.0, 1.0, dimensions) == pytest.approx(1.0)  # equipartition
+    for r, beta in ((0.9, 0.0), (0.9, 0.5), (0.9, -0.5), (0.4, 0.9)):
+        a, b, c = theory.rough_rates(r, beta, dimensions)
+        ratio = 0.0
+        for _ in range(20_000):
+            ratio += 0.02 * (4 / theory.ROTATIONS[dimensions] * (b - c * ratio) + 4 / dimensions * ratio * (a - b * ratio))
+        assert theory.rough_temperature_ratio(r, beta, dimensions) == pytest.approx(ratio, rel=1e-6)
+
+
+def test_rough_temperatures_in_the_plane():
+    """Roots of B R^2 + (2C - A) R - 2B = 0 at r = .9, worked out by hand at beta = 0: A = .1169, B = .0278, C = .1111."""
+    np.testing.assert_allclose(theory.rough_rates(0.9, 0.0), (0.19 / 4 + 5 / 72, 1 / 36, 1 / 9), rtol=1e-12)
+    np.testing.assert_allclose(theory.rough_temperature_ratio(0.9, [0.0, 0.5, -0.5]), [0.4695, 0.7904, 0.2528], atol=1e-4)

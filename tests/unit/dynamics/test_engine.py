@@ -15,6 +15,7 @@ SCENES = [
     Scene(300, 0.05, restitution=0.8, contact_time=1e-5),
     Scene(300, 0.7, restitution=1.0, contact_time=(1e-5, 1e-3)),
     Scene(64, 0.4, restitution=0.95, contact_time=0.0),
+    Scene(64, 0.25, restitution=0.8, contact_time=1e-5, tangential_restitution=0.5, friction=0.3),
 ]
 
 

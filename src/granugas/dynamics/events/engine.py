@@ -49,7 +49,6 @@ class Engine:
         """Predict all events of a state; `rule`, `watch` ... replace effects that the scene calls for, if they are not None."""
         self.scene = scene
         self.box = state.box
-        self._of_particles = state.more
         self.effects = effects_of(scene, state) | {place: effect for place, effect in instead.items() if effect is not None}
         tables = tables_of(state, scene.diameter)
         self.arrays = tables | {name: rows for place, effect in self.effects.items() for name, rows in _rows_of(place, effect)}
@@ -113,9 +112,9 @@ class Engine:
         here = disks["x"] + disks["v"] * flown + (disks["cell"] + 0.5) * grid["width"][0]
         position = np.mod(here * d, self.box)
         position[position >= self.box] = 0.0
-        more = dict(self._of_particles)
+        more: dict[str, np.ndarray] = {}
         for effect in self.effects.values():
-            more |= effect.of_particles() if hasattr(effect, "of_particles") else {}
+            more |= effect.of_particles(self.scene) if hasattr(effect, "of_particles") else {}
         return State(
             time=self.time,
             box=self.box,

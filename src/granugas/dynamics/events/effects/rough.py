@@ -16,13 +16,8 @@ from granugas.dynamics.events.memory import Table, allocate
 from granugas.dynamics.events.sizes import radius, reach, reduced_mass, shares
 from granugas.dynamics.events.vectors import along, cross, dot, minus, scaled, torque
 from granugas.dynamics.state import State
+from granugas.geometry import INERTIA, ROTATIONS
 from granugas.scene import Scene
-
-INERTIA = {2: 1 / 2, 3: 2 / 5}
-"""q = I / (m a^2) of uniform disks and spheres, by the dimensions of space."""
-
-AXES = {2: 1, 3: 3}
-"""Components of a spin."""
 
 
 class Rough(NamedTuple):
@@ -42,7 +37,7 @@ class Rough(NamedTuple):
     friction: float
     energy: float
 
-    def of_particles(self) -> dict[str, np.ndarray]:
+    def of_particles(self, scene: Scene) -> dict[str, np.ndarray]:
         """The spins (N,) in 2D, (N, 3) in 3D, in 1/s."""
         spin = self.spins.rows["w"].copy()
         return {"spin": spin[:, 0] if spin.shape[1] == 1 else spin}
@@ -51,13 +46,13 @@ class Rough(NamedTuple):
         """E_rot / E(0), and R = T_rot / T_tr, both temperatures for one degree of freedom."""
         moment = self.inertia * _mass(state) * (_diameter(scene, state) / 2) ** 2
         rotation = 0.5 * float(np.sum(moment * np.sum(self.spins.rows["w"] ** 2, axis=1)))
-        ratio = rotation / _translation(state) * scene.dimensions / AXES[scene.dimensions]
+        ratio = rotation / _translation(state) * scene.dimensions / ROTATIONS[scene.dimensions]
         return {"rotational_energy": rotation / self.energy, "temperature_ratio": ratio}
 
 
 def effect_of(scene: Scene, state: State) -> Rough:
     """The surfaces of a scene; spins are those of the state, zero where it has none."""
-    q, axes = INERTIA[scene.dimensions], AXES[scene.dimensions]
+    q, axes = INERTIA[scene.dimensions], ROTATIONS[scene.dimensions]
     rows = allocate(len(state.position), np.dtype([("w", "f8", (axes,))]))
     if "spin" in state.more:
         rows["w"] = state.more["spin"].reshape(-1, axes)
