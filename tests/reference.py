@@ -30,6 +30,7 @@ class Stretch:
         elastic: (C,), whether that was within t_c.
         velocity: (N, 2), in m/s.
         last_collision_time: (N,), in s.
+        spin: (N,) or (N, 3), in 1/s.
     """
 
     time: np.ndarray
@@ -38,12 +39,17 @@ class Stretch:
     elastic: np.ndarray
     velocity: np.ndarray
     last_collision_time: np.ndarray
+    spin: np.ndarray
 
 
-def follow(state: State, diameter: float, restitution: float, contact_time: float, collisions: int) -> Stretch:
-    """The next collisions of a state, up to the first that comes too soon to be resolved, which is still in."""
+def follow(state: State, diameter: float, restitution: float, contact_time: float, collisions: int, rough=None) -> Stretch:
+    """The next collisions of a state, up to the first that comes too soon to be resolved, which is still in.
+
+    rough: beta and mu of surfaces that rub (`rub`).
+    """
     box = np.array(state.box)
     x, v, last = state.position.copy(), state.velocity.copy(), state.last_collision_time - state.time
+    spin = state.more.get("spin", np.zeros(len(x))).copy()
     pairs = np.triu_indices(len(x), 1)
     now, seen = 0.0, []
     while len(seen) < collisions:
@@ -55,13 +61,37 @@ def follow(state: State, diameter: float, restitution: float, contact_time: floa
         elastic = since <= contact_time  # A Eq. 4
         r = 1.0 if elastic else restitution
         u_n = (v[j] - v[i]) @ normal
+        if rough and not elastic:
+            rub(v, spin, i, j, normal, (1 + r) / 2 * abs(u_n), diameter / 2, *rough)
         v[i] += (1 + r) / 2 * u_n * normal  # A Eq. 2
         v[j] -= (1 + r) / 2 * u_n * normal
         last[i] = last[j] = now
         seen.append((now, (i, j), -u_n * since / diameter, elastic))
         if seen[-1][2] < RESOLVED:
             break
-    return Stretch(*(np.array(column) for column in zip(*seen, strict=True)), v, last + state.time)
+    return Stretch(*(np.array(column) for column in zip(*seen, strict=True)), v, last + state.time, spin)
+
+
+def rub(v, spin, i, j, normal, pushed, radius, beta, mu):
+    """Rough surfaces of two disks or spheres of mass 1, `pushed` being the normal momentum: both turn, and move sideways.
+
+    The relative velocity g of the surfaces becomes -beta g, unless this takes more momentum than mu times `pushed`.
+    """
+    in_plane, n = v.shape[1] == 2, np.zeros(3)
+    inertia = radius**2 * (1 / 2 if in_plane else 2 / 5)
+    n[: v.shape[1]], g, turning = normal, np.zeros(3), np.zeros(3)
+    g[: v.shape[1]] = v[j] - v[i]
+    turning[2 if in_plane else slice(None)] = spin[i] + spin[j]
+    g -= radius * np.cross(turning, n)
+    g -= (g @ n) * n
+    momentum = (1 + beta) * g / (2 + 2 * radius**2 / inertia)  # 1/m of two partners, radius^2/I of two
+    size = np.linalg.norm(momentum)
+    momentum *= min(1.0, mu * pushed / size) if size > 0 else 1.0
+    v[i] += momentum[: v.shape[1]]
+    v[j] -= momentum[: v.shape[1]]
+    turn = radius * np.cross(n, momentum) / inertia
+    spin[i] += turn[2] if in_plane else turn
+    spin[j] += turn[2] if in_plane else turn
 
 
 def first_contact(

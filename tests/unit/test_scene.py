@@ -65,6 +65,11 @@ WRONG = [
     ("velocity_half_width", -0.5, "a number > 0 m/s"),
     ("aspect_ratio", 0.0, "a number > 0"),
     ("aspect_ratio", math.inf, "a number > 0"),
+    ("tangential_restitution", -1.1, "a number >= -1 and <= 1"),
+    ("tangential_restitution", 1.1, "a number >= -1 and <= 1"),
+    ("friction", -0.1, "a number >= 0, or .inf"),
+    ("friction", math.nan, "a number >= 0, or .inf"),
+    ("friction", -math.inf, "a number >= 0, or .inf"),
     ("dynamics", "dsmc", "events"),
     ("lattice", "hexagonal", "auto, triangular, square, cubic, fcc"),
     ("lattice", "cubic", "in 2 dimensions allowed are auto, triangular, square"),
@@ -92,6 +97,7 @@ def test_a_wrong_value_is_named(key, value, allowed):
         ({"dimensions": 3, "lattice": "square"}, "lattice = 'square': in 3 dimensions allowed are auto, cubic, fcc"),
         ({"dimensions": 1, "lattice": "square"}, "lattice = 'square': in 1 dimensions allowed are auto"),
         ({"dimensions": 1, "aspect_ratio": 2.0}, "aspect_ratio = 2.0: allowed is 1 in one dimension"),
+        ({"dimensions": 1, "tangential_restitution": 0.5}, "tangential_restitution = 0.5: beads on a line touch head on"),
     ],
 )
 def test_what_depends_on_the_dimensions(values, message):
@@ -104,6 +110,15 @@ def test_volumes_and_energies_in_other_dimensions():
     assert 100 * 1e-3 / line.volume == pytest.approx(0.95)
     assert 100 * math.pi * 1e-9 / 6 / space.volume == pytest.approx(0.3)
     assert [scene.energy_per_mass for scene in (line, Scene(), space)] == pytest.approx([0.25 / 6, 0.25 / 3, 0.25 / 2])
+
+
+def test_surfaces_rub_unless_they_are_smooth_or_without_friction():
+    assert Scene(restitution=1.0, tangential_restitution=0.5).dissipates
+    assert not Scene(restitution=1.0, tangential_restitution=0.5, friction=0.0).dissipates
+    assert not Scene(restitution=1.0, friction=0.5).dissipates
+    assert Scene(friction=math.inf) == Scene()
+    with pytest.raises(SceneError, match=r"contact_time = \(1e-05, 0\.0001\): .* and for smooth surfaces"):
+        Scene(restitution=1.0, contact_time=(1e-5, 1e-4), tangential_restitution=0.5)
 
 
 @pytest.mark.parametrize("times", [(), (1e-5, -1.0), (1e-5, math.nan)])

@@ -37,11 +37,12 @@ def compare(scene, start, wanted):
     """Let engine and brute force collide side by side; how many collisions were seen, and whether a collapse ended it."""
     n, r, t_c = scene.n_particles, scene.restitution, scene.contact_time
     stretch = max(1, int(STRETCH[scene.area_fraction] * n / 2))
+    rough = (scene.tangential_restitution, scene.friction) if scene.rough else None
     engine = Engine(scene, start, watch=recorder(wanted))
     done = 0
     while done < wanted:
         before = engine.state()
-        expected = follow(before, scene.diameter, r, t_c, min(stretch, wanted - done))
+        expected = follow(before, scene.diameter, r, t_c, min(stretch, wanted - done), rough)
         times = []
         for _ in expected.time:
             engine.advance(math.inf, most_collisions=1)
@@ -59,6 +60,9 @@ def compare(scene, start, wanted):
         if resolved.all():
             tolerance = VELOCITIES * math.sqrt(speed_2)
             np.testing.assert_allclose(after.velocity, expected.velocity, rtol=0, atol=tolerance)
+            if rough:
+                spins = {"rtol": 0, "atol": 4 * tolerance / scene.diameter}
+                np.testing.assert_allclose(after.more["spin"], expected.spin, **spins)
             np.testing.assert_allclose(after.last_collision_time, expected.last_collision_time, **near)
         elif t_c == 0:
             return done, True
@@ -101,4 +105,16 @@ def test_elongated_boxes(area_fraction, restitution, contact_time, n_particles, 
     scene = Scene(n_particles, area_fraction, restitution, contact_time, aspect_ratio=aspect_ratio)
     box = start_of(scene).box
     assert box[0] / box[1] == pytest.approx(aspect_ratio, rel=0.5)
+    check(scene, start_of)
+
+
+@pytest.mark.parametrize(
+    ("restitution", "contact_time", "beta", "mu"),
+    [(1.0, 0.0, 1.0, math.inf), (0.8, 0.0, 0.0, math.inf), (0.8, 1.0e-4, 0.5, 0.2), (0.4, 1.0e-5, -0.5, 0.1)],
+)
+@pytest.mark.parametrize("area_fraction", [0.05, 0.25, 0.7])
+def test_rough_disks(area_fraction, restitution, contact_time, beta, mu, start_of):
+    """The start has collided with rough surfaces already: its disks spin."""
+    scene = Scene(42, area_fraction, restitution, contact_time, tangential_restitution=beta, friction=mu)
+    assert np.all(start_of(scene).more["spin"] != 0)
     check(scene, start_of)
