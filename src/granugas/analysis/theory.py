@@ -84,6 +84,23 @@ def collapse_restitution(n_particles: ArrayLike, area_fraction: ArrayLike) -> Nu
     return np.tan(np.pi / 4 * (1 - 1 / optical_depth(n_particles, area_fraction))) ** 2
 
 
+def column_restitution(n_particles: ArrayLike) -> Numbers:
+    """r_c = tan^2[pi/4 (1 - 1/N)] of a column of N beads that hits a wall, by independent collision waves (A section 2.1).
+
+    chi_c = N (1 - r_c) tends to pi.
+    """
+    return np.tan(np.pi / 4 * (1 - 1 / np.asarray(n_particles, dtype=float))) ** 2
+
+
+def cushion_restitution(n_particles: ArrayLike) -> Numbers:
+    """The same by the cushion model: chi_c = N (1 - r_c) = ln[4 / (1 - r_c)] (A section 2.1)."""
+    n = np.asarray(n_particles, dtype=float)
+    chi = np.log(4 * n)
+    for _ in range(10):  # Newton's method for chi + ln chi = ln 4N
+        chi = chi * (1 + np.log(4 * n) - np.log(chi)) / (1 + chi)
+    return 1 - chi / n
+
+
 def sonine_coefficient(restitution: ArrayLike) -> Numbers:
     """a_2 of the velocities in homogeneous cooling, 16 (1-r)(1-2r^2) / [73 - 41r - 2r^2 (1-r)] (Montanero & Santos).
 

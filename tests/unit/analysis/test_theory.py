@@ -200,3 +200,12 @@ def test_rough_temperatures_in_the_plane():
     """Roots of B R^2 + (2C - A) R - 2B = 0 at r = .9, worked out by hand at beta = 0: A = .1169, B = .0278, C = .1111."""
     np.testing.assert_allclose(theory.rough_rates(0.9, 0.0), (0.19 / 4 + 5 / 72, 1 / 36, 1 / 9), rtol=1e-12)
     np.testing.assert_allclose(theory.rough_temperature_ratio(0.9, [0.0, 0.5, -0.5]), [0.4695, 0.7904, 0.2528], atol=1e-4)
+
+
+def test_columns_on_a_wall():
+    """Two beads: 3 - 2 sqrt 2; many: chi_c = pi (ICW), and the cushion model's own equation."""
+    assert theory.column_restitution(2) == pytest.approx(3 - 2 * np.sqrt(2), rel=1e-14)
+    assert 1e6 * (1 - theory.column_restitution(1e6)) == pytest.approx(np.pi, rel=1e-5)
+    n = np.array([2, 5, 20, 1000])
+    loss = 1 - theory.cushion_restitution(n)
+    np.testing.assert_allclose(n * loss, np.log(4 / loss), rtol=1e-13)
