@@ -147,3 +147,18 @@ def test_a_single_disk_flies_on():
 def test_a_start_state_can_be_given(gas, run):
     given = simulate(gas, 0.2, seed=3, snapshots=(0.05, 0.2), state=equilibrate(gas, seed=3), **QUIET)
     np.testing.assert_array_equal(given["kinetic_energy"].values, run["kinetic_energy"].values)
+
+
+@pytest.mark.parametrize(("dimensions", "spin"), [(2, ("snapshot", "particle")), (3, ("snapshot", "particle", "axis"))])
+def test_rough_particles_in_a_dataset(dimensions, spin):
+    """Kinetic energy is that of translation; spins stand in the snapshots."""
+    scene = gg.Scene(64, 0.2, restitution=0.8, dimensions=dimensions, tangential_restitution=0.5, friction=0.4)
+    run = gg.simulate(scene, 0.02, seed=1, snapshots=[0.0, 0.02], keep_positions=False, progress=False)
+    assert run["spin"].dims == spin
+    q = {2: 1 / 2, 3: 2 / 5}[dimensions]
+    energy = 0.5 * q * (scene.diameter / 2) ** 2 * (run["spin"] ** 2).sum() / 64 / scene.energy_per_mass
+    assert run["rotational_energy"].values[-1] == pytest.approx(float(energy), rel=1e-12)
+    assert run["rotational_energy"].values[0] == run["temperature_ratio"].values[0] == 0
+    ratio = run["rotational_energy"] / run["kinetic_energy"] * {2: 2, 3: 1}[dimensions]
+    np.testing.assert_allclose(run["temperature_ratio"], ratio, rtol=1e-12)
+    assert np.all(np.diff(run["kinetic_energy"] + run["rotational_energy"]) <= 1e-12)
