@@ -115,3 +115,15 @@ def test_runs_that_end_by_collisions_have_their_own_times() -> None:
     assert findings(data) == []
     data["sampling_time"][{"time": 2, "realization": 0}] *= 1.1
     assert any(line.startswith("collision_rate does not add up") for line in findings(data))
+
+
+def test_energy_of_rotation_counts() -> None:
+    """Translation may gain what rotation loses, and lose energy to it at r = 1; both together fall."""
+    data = sound()
+    passed = 0.1 * data.time * (data.restitution == 1) * xr.ones_like(data["kinetic_energy"])
+    data["rotational_energy"] = passed.where(data.restitution == 1)  # smooth runs have none
+    for name, share in (("kinetic_energy", 1.0), ("kinetic_energy_x", 0.4), ("kinetic_energy_y", 0.6)):
+        data[name] = data[name] - share * passed
+    assert findings(data) == []
+    data["rotational_energy"] = 2 * data["rotational_energy"]
+    assert any(line.startswith("kinetic_energy rises") for line in findings(data))

@@ -152,8 +152,8 @@ def test_a_start_state_can_be_given(gas, run):
 @pytest.mark.parametrize(("dimensions", "spin"), [(2, ("snapshot", "particle")), (3, ("snapshot", "particle", "axis"))])
 def test_rough_particles_in_a_dataset(dimensions, spin):
     """Kinetic energy is that of translation; spins stand in the snapshots."""
-    scene = gg.Scene(64, 0.2, restitution=0.8, dimensions=dimensions, tangential_restitution=0.5, friction=0.4)
-    run = gg.simulate(scene, 0.02, seed=1, snapshots=[0.0, 0.02], keep_positions=False, progress=False)
+    scene = Scene(64, 0.2, restitution=0.8, dimensions=dimensions, tangential_restitution=0.5, friction=0.4)
+    run = simulate(scene, 0.02, seed=1, snapshots=[0.0, 0.02], keep_positions=False, progress=False)
     assert run["spin"].dims == spin
     q = {2: 1 / 2, 3: 2 / 5}[dimensions]
     energy = 0.5 * q * (scene.diameter / 2) ** 2 * (run["spin"] ** 2).sum() / 64 / scene.energy_per_mass
