@@ -64,7 +64,8 @@ def number(
     allowed = f"allowed is a number {low}{high}{', or .inf' if endless else ''}{' ' if unit else ''}{unit}"
 
     def check(key: str, value: Any) -> None:
-        if isinstance(value, bool) or not isinstance(value, Real) or not (math.isfinite(value) or endless and value == math.inf):
+        limited = isinstance(value, Real) and (math.isfinite(value) or (endless and value == math.inf))
+        if isinstance(value, bool) or not limited:
             raise SceneError(key, value, allowed)
         if (at_least is not None and value < at_least) or (above is not None and value <= above) or value > at_most:
             raise SceneError(key, value, allowed)
@@ -119,7 +120,7 @@ class Scene:
         dimensions: D of space: beads on a ring, disks in a plane, spheres.
         boundary: of the box.
         aspect_ratio: Lx / Ly of the box, in 3D with Lz = sqrt(Lx Ly); an explicit lattice takes the nearest that it can.
-        tangential_restitution: beta in [-1, 1], by which a contact reverses the tangential velocity of the surfaces (-1: smooth).
+        tangential_restitution: beta in [-1, 1], by which a contact reverses the surfaces' tangential velocity; -1: smooth.
         friction: mu; a contact passes on no more tangential momentum than mu times the normal one; infinite: no such limit.
 
     Raises:
@@ -181,7 +182,7 @@ class Scene:
 
     @property
     def dissipates(self) -> bool:
-        """Whether collisions are other than elastic ones of smooth particles, so that a contact duration has something to do."""
+        """Whether collisions are other than elastic ones of smooth particles: only then a contact duration changes them."""
         return self.restitution < 1 or self.rough
 
     @property

@@ -22,7 +22,7 @@ collisions. At C/N = 350 the energy of the gas would fall to that of rounding.""
 
 
 def monte_carlo(r: float, beta: float, mu: float = math.inf, n: int = 20_000, rounds: int = 1800) -> float:
-    """R of the same collisions without positions, from spins at rest: random partners and directions, at a rate by the speed of approach.
+    """R of the same collisions without positions, from spins at rest: random partners, at a rate by the speed of approach.
 
     Disks of mass 1 and radius 1/2. Velocities are scaled to one temperature all the time, and their mean is removed.
     """
@@ -74,7 +74,7 @@ def events(r: float, beta: float, mu: float = math.inf, realizations: int = 16) 
 
 @pytest.mark.parametrize("beta", [0.0, 0.5, -0.5])
 def test_the_ratio_of_temperatures(beta):
-    """r = .9: Maxwellian theory is 2 to 6 % above; both methods agree within their errors of .5 %, and that of a finite density (up to 1 %)."""
+    """r = .9: Maxwellian theory is 2 to 6 % above; the two methods differ by their errors of .5 %, and up to 1 % by density."""
     found, other = events(0.9, beta), monte_carlo(0.9, beta)
     assert found == pytest.approx(other, rel=0.02)
     below = 1 - found / theory.rough_temperature_ratio(0.9, beta)

@@ -115,7 +115,9 @@ def sonine_coefficient(restitution: ArrayLike) -> Numbers:
 # of freedom. beta is the coefficient of tangential restitution; there is no limit of friction.
 
 
-def rough_rates(restitution: ArrayLike, tangential_restitution: ArrayLike, dimensions: int = 2) -> tuple[Numbers, Numbers, Numbers]:
+def rough_rates(
+    restitution: ArrayLike, tangential_restitution: ArrayLike, dimensions: int = 2
+) -> tuple[Numbers, Numbers, Numbers]:
     """A, B and C of dT_tr = -(4/D) (A T_tr - B T_rot) and dT_rot = (4/D_rot) (B T_tr - C T_rot) per collision of a particle.
 
     A = (1-r^2)/4 + (D-1) eta (1-eta)/2, B = (D-1) eta^2/(2q), C = (D-1) eta/(2q) (1 - eta/q), eta = q (1+beta)/(2q+2);

@@ -120,7 +120,7 @@ VARIABLES = {
         for b in "xyz"
     },
     "rotational_energy": Variable("1", "rotational energy by the initial kinetic energy", "E_rot/E(0)"),
-    "temperature_ratio": Variable("1", "rotational by translational temperature, each of one degree of freedom", "R = T_rot/T_tr"),
+    "temperature_ratio": Variable("1", "rotational by translational temperature", "R = T_rot/T_tr"),
     # clusters
     "cluster_count": Variable("1", "number of clusters, single particles included", "I_c", "B Eq. 6"),
     "mean_cluster_size": Variable("1", "mean number of particles in a cluster", "<M> = N/I_c", "B Eq. 7"),

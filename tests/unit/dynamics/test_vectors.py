@@ -35,6 +35,21 @@ def everything(a, b, c, s):
     )
 
 
+@njit
+def turning(w, a, b):
+    return vectors.cross(w, a), vectors.torque(a, b)
+
+
+@pytest.mark.parametrize("run", [turning, turning.py_func], ids=["compiled", "plain"])
+def test_spins_in_a_plane_are_those_in_space(run):
+    a, b, w = np.random.default_rng(4).normal(size=(3, 3))
+    np.testing.assert_allclose(run(tuple(w), tuple(a), tuple(b)), (np.cross(w, a), np.cross(a, b)), rtol=1e-15)
+    a[2] = b[2] = w[0] = w[1] = 0.0
+    velocity, moment = run((w[2],), tuple(a[:2]), tuple(b[:2]))
+    np.testing.assert_allclose((*velocity, 0.0), np.cross(w, a), rtol=1e-15)
+    np.testing.assert_allclose((0.0, 0.0, *moment), np.cross(a, b), rtol=1e-15)
+
+
 @pytest.mark.parametrize("dimensions", [1, 2, 3])
 @pytest.mark.parametrize("run", [everything, everything.py_func], ids=["compiled", "plain"])
 def test_as_numpy_has_it(dimensions, run):
