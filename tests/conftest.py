@@ -10,8 +10,8 @@ import pytest
 
 from granugas.dynamics.events.engine import Engine
 from granugas.dynamics.state import State
-from granugas.equilibrate import at_rest
-from granugas.initial import random_stream, sites, start_lattice, start_velocities
+from granugas.equilibrate import at_rest, on_lattice
+from granugas.initial import random_stream, start_lattice, start_velocities
 from granugas.scene import Scene
 
 TILTED = {2: 1, 3: 1, 5: 2}
@@ -34,9 +34,9 @@ def _after_elastic_collisions(scene: Scene, realization: int) -> State:
     if n in TILTED:
         box = (math.sqrt(scene.volume),) * 2
         position = np.outer(np.arange(n), [1, TILTED[n]]) % n * box[0] / n
+        start = at_rest(position, start_velocities(scene, rng), box)
     else:
-        lattice = start_lattice(scene)
-        box, position = lattice.box, sites(lattice, n, rng)
-    engine = Engine(scene, at_rest(position, start_velocities(scene, rng), box))
+        start = on_lattice(scene, start_lattice(scene), rng)
+    engine = Engine(scene, start)
     engine.advance(math.inf, 20 * n)
     return engine.state()

@@ -13,7 +13,7 @@ TOLERATED = 1.0e-12
 
 
 def smallest_gap(engine: Engine) -> float:
-    """The least distance of two disks minus d, in d; infinite where none are near.
+    """The least distance of two disks minus their radii, in d; infinite where none are near.
 
     The tree on absolute positions only names the near pairs. Their separations come from coordinates relative to the
     cells, which do not lose digits in a large box.
@@ -25,11 +25,12 @@ def smallest_gap(engine: Engine) -> float:
     cell = disks["cell"].astype(np.int64)
     absolute = np.mod(in_cell + (cell + 0.5) * width, box)
     absolute[absolute >= box] = 0.0
-    i, j = cKDTree(absolute, boxsize=box).query_pairs(NEAR, output_type="ndarray").T
+    d = engine.state().more.get("diameter", np.full(len(cell), engine.scene.diameter)) / engine.scene.diameter
+    i, j = cKDTree(absolute, boxsize=box).query_pairs(NEAR * d.max(), output_type="ndarray").T
     if not len(i):
         return np.inf
     apart = cell[j] - cell[i]
     apart -= cells * np.rint(apart / cells).astype(np.int64)
     separation = in_cell[j] - in_cell[i] + apart * width
     separation -= box * np.rint(separation / box)  # where a box of a few cells leaves two ways around
-    return float(np.min(np.linalg.norm(separation, axis=1)) - 1.0)
+    return float(np.min(np.linalg.norm(separation, axis=1) - (d[i] + d[j]) / 2))

@@ -45,15 +45,18 @@ class Stretch:
 def follow(state: State, diameter: float, restitution: float, contact_time: float, collisions: int, rough=None) -> Stretch:
     """The next collisions of a state, up to the first that comes too soon to be resolved, which is still in.
 
-    rough: beta and mu of surfaces that rub (`rub`).
+    The disks have the diameters and masses of the state, where it has them.
+    rough: beta and mu of surfaces that rub (`rub`), of equal disks.
     """
     box = np.array(state.box)
     x, v, last = state.position.copy(), state.velocity.copy(), state.last_collision_time - state.time
     spin = state.more.get("spin", np.zeros(len(x))).copy()
     pairs = np.triu_indices(len(x), 1)
+    d, mass = state.more.get("diameter", np.full(len(x), diameter)), state.more.get("mass", np.ones(len(x)))
+    contact = (d[pairs[0]] + d[pairs[1]]) / 2
     now, seen = 0.0, []
     while len(seen) < collisions:
-        delay, i, j, normal = first_contact(x, v, pairs, box, diameter)
+        delay, i, j, normal = first_contact(x, v, pairs, box, contact)
         now, x = now + delay, (x + v * delay) % box
         if i == j:  # nobody, within reach of the images
             continue
@@ -63,8 +66,8 @@ def follow(state: State, diameter: float, restitution: float, contact_time: floa
         u_n = (v[j] - v[i]) @ normal
         if rough and not elastic:
             rub(v, spin, i, j, normal, (1 + r) / 2 * abs(u_n), diameter / 2, *rough)
-        v[i] += (1 + r) / 2 * u_n * normal  # A Eq. 2
-        v[j] -= (1 + r) / 2 * u_n * normal
+        v[i] += (1 + r) * u_n * mass[j] / (mass[i] + mass[j]) * normal  # A Eq. 2
+        v[j] -= (1 + r) * u_n * mass[i] / (mass[i] + mass[j]) * normal
         last[i] = last[j] = now
         seen.append((now, (i, j), -u_n * since / diameter, elastic))
         if seen[-1][2] < RESOLVED:
@@ -95,16 +98,16 @@ def rub(v, spin, i, j, normal, pushed, radius, beta, mu):
 
 
 def first_contact(
-    x: np.ndarray, v: np.ndarray, pairs: tuple[np.ndarray, np.ndarray], box: np.ndarray, d: float
+    x: np.ndarray, v: np.ndarray, pairs: tuple[np.ndarray, np.ndarray], box: np.ndarray, d: np.ndarray
 ) -> tuple[float, int, int, np.ndarray]:
-    """The earliest |r + u t| = d of all pairs: the delay, i and j, and the unit vector from i to j at the contact.
+    """The earliest |r + u t| = d of all pairs, d for each: the delay, i and j, and the unit vector from i to j at the contact.
 
     In a large box a pair meets in its nearest image, as long as it moves by less than L/2 - d before; in a small box in one
     of the nine, as long as it moves by less than L/2. Where nobody meets in so short a time: that time, and i = j.
     """
-    large = box.min() > 4 * d
+    large = box.min() > 4 * d.max()
     images = np.zeros((1, 2)) if large else ALL_IMAGES
-    reach = (box.min() / 2 - d * large) / (2 * np.linalg.norm(v, axis=1).max())
+    reach = (box.min() / 2 - d.max() * large) / (2 * np.linalg.norm(v, axis=1).max())
     i, j = pairs
     r, u = x[j] - x[i], v[j] - v[i]
     rx, ry = (r - box * np.round(r / box)).T[:, None, :] + (images * box).T[:, :, None]

@@ -23,6 +23,7 @@ SOURCES = Path(__file__).resolve().parent
 
 EVENTS = (
     "granugas.geometry",
+    "granugas.diameters",
     "granugas.arguments",
     "granugas.doubts",
     "granugas.lattices.*",
@@ -35,12 +36,13 @@ EVENTS = (
     "granugas.simulate",
     "granugas.analysis.observables",
     "granugas.analysis.enskog",
+    "granugas.analysis.mixtures",
     "granugas.dynamics.state",
     *(
         f"granugas.dynamics.events.{name}"
         for name in (
             *("memory", "composition", "state", "vectors", "cells", "flight", "boundary", "sizes", "calendar", "look_ahead"),
-            *("predict", "collisions", "loop", "cast", "tables", "engine"),
+            *("predict", "collisions", "loop", "driving", "growth", "cast", "tables", "engine"),
         )
     ),
 )

@@ -62,6 +62,11 @@ def doubts_before(scene: Scene, start: Mapping[str, Any], cells: Sequence[int], 
         )
     if scene.friction < math.inf and scene.tangential_restitution == -1:
         lines.append(f"friction = {scene.friction:g} does nothing: the surfaces are smooth (tangential_restitution = -1)")
+    if scene.heating > 0 and not scene.dissipates:
+        lines.append(
+            f"heating = {scene.heating:g} m^2/s^3 at restitution = 1: nothing dissipates, the energy grows without end"
+        )
+    lines += _without_effect(scene)
     if min(cells) < FEWEST_CELLS:
         sides = " x ".join(f"{float(start[f'box_{axis}']) / scene.diameter:.3g}" for axis in "xyz"[: scene.dimensions])
         lines.append(
@@ -74,6 +79,16 @@ def doubts_before(scene: Scene, start: Mapping[str, Any], cells: Sequence[int], 
             f"n_particles = {n}: too few for a cluster analysis, with fewer than {fewest} a cluster soon meets its own image"
         )
     return lines
+
+
+def _without_effect(scene: Scene) -> list[str]:
+    """Keys of sizes that the scene does not have."""
+    belongs = {"size_ratio": ("bidisperse",), "size_share": ("bidisperse",), "size_spread": ("uniform", "log_normal")}
+    return [
+        f"{key} = {getattr(scene, key):g} has no effect with sizes = {scene.sizes}"
+        for key, sizes in belongs.items()
+        if scene.sizes not in sizes and getattr(scene, key) != getattr(Scene, key)
+    ]
 
 
 def doubts_after(run: xr.Dataset) -> list[str]:

@@ -1,16 +1,21 @@
 """Where a run starts: particles on a lattice, with uniformly distributed velocity components (beads: normally distributed)."""
 
 import math
+from dataclasses import replace
 from types import ModuleType
 from typing import Any
 
 import numpy as np
 
+from granugas.diameters import largest, moment
 from granugas.lattices import line, plane, space
 from granugas.lattices.lattice import TOUCH, Lattice
 from granugas.scene import LATTICES, Scene, SceneError
 
 IN_DIMENSIONS: dict[int, ModuleType] = {1: line, 2: plane, 3: space}
+
+FEWEST_LARGEST = 2
+"""Largest diameters that go into the box side by side, at least."""
 
 
 def check_lattice(scene: Scene) -> None:
@@ -26,26 +31,35 @@ def start_lattice(scene: Scene) -> Lattice:
     """The lattice on which a scene starts.
 
     An explicit lattice is regular: exactly N sites, in the box (nearest to the aspect ratio) that makes them equidistant.
-    "auto" takes the box as asked, and a lattice that may have more sites than N.
+    "auto" takes the box as asked, and a lattice that may have more sites than N. Where sizes differ and it melts, it is that
+    of equal particles in the same box: those that are too large for it start smaller, and grow while it melts.
 
     Raises:
         SceneError: the particles do not fit.
     """
-    kinds = IN_DIMENSIONS[scene.dimensions]
-    lattice = kinds.filling(scene) if scene.lattice == "auto" else kinds.explicit(scene)
-    if lattice.holds(scene):
+    kinds, d = IN_DIMENSIONS[scene.dimensions], scene.dimensions
+    relative = moment(scene, d) / largest(scene) ** d
+    grows = scene.sizes != "equal" and scene.lattice == "auto" and melts(scene)
+    if grows:
+        lattice = kinds.filling(replace(scene, sizes="equal", area_fraction=scene.area_fraction / moment(scene, d)))
+    else:
+        lattice = kinds.filling(scene) if scene.lattice == "auto" else kinds.explicit(scene)
+    if scene.sizes != "equal" and min(lattice.box) < FEWEST_LARGEST * largest(scene) * scene.diameter:
+        allowed = f"allowed are so many that the box is {FEWEST_LARGEST} of the largest diameters wide"
+        raise SceneError("n_particles", scene.n_particles, allowed)
+    if grows or lattice.holds(scene):
         return lattice
     if scene.lattice != "auto":
-        densest = kinds.DENSEST[scene.lattice]
+        densest = kinds.DENSEST[scene.lattice] * relative
         if scene.area_fraction >= densest:
             raise SceneError("area_fraction", scene.area_fraction, f"a {scene.lattice} lattice holds less than {densest:.4f}")
         raise SceneError("n_particles", scene.n_particles, _nearest_advice(scene))
-    largest = scene.area_fraction * (lattice.spacing / (scene.diameter * TOUCH)) ** scene.dimensions
-    name = {1: "beads", 2: "disks", 3: "spheres"}[scene.dimensions]
+    densest = scene.area_fraction * (lattice.spacing / (scene.diameter * largest(scene) * TOUCH)) ** d
+    name = {1: "beads", 2: "disks", 3: "spheres"}[d]
     raise SceneError(
         "area_fraction",
         scene.area_fraction,
-        f"{scene.n_particles} {name} fit on a lattice up to {math.floor(largest * 1e4) / 1e4:.4f}",
+        f"{scene.n_particles} {name} fit on a lattice up to {math.floor(densest * 1e4) / 1e4:.4f}",
     )
 
 
@@ -67,16 +81,23 @@ def start_velocities(scene: Scene, rng: np.random.Generator) -> np.ndarray:
     is normal. A single particle keeps its velocity, which is its momentum.
     """
     w, shape = scene.velocity_half_width, (scene.n_particles, scene.dimensions)
-    velocity = rng.normal(0.0, w, shape) if scene.dimensions == 1 else rng.uniform(-w, w, shape)
-    if scene.n_particles > 1:
-        velocity -= velocity.mean(axis=0)
-    return rescaled(velocity, w)
+    return as_wanted(rng.normal(0.0, w, shape) if scene.dimensions == 1 else rng.uniform(-w, w, shape), w)
 
 
-def rescaled(velocity: np.ndarray, half_width: float) -> np.ndarray:
+def as_wanted(velocity: np.ndarray, half_width: float, mass: np.ndarray | None = None) -> np.ndarray:
+    """Velocities (N, D) at rest as a whole, as long as there are several, and with the kinetic energy E = D N m w^2 / 6.
+
+    mass: (N,) in mean masses m, where they differ.
+    """
+    if len(velocity) > 1:
+        velocity = velocity - np.average(velocity, axis=0, weights=mass)
+    return rescaled(velocity, half_width, mass)
+
+
+def rescaled(velocity: np.ndarray, half_width: float, mass: np.ndarray | None = None) -> np.ndarray:
     """Velocities (N, D) scaled to the kinetic energy E = D N m w^2 / 6."""
-    dimensions = velocity.shape[1]
-    return velocity * math.sqrt(dimensions * half_width**2 / 3 / np.mean(np.sum(velocity**2, axis=1)))
+    dimensions, squares = velocity.shape[1], np.sum(velocity**2, axis=1)
+    return velocity * math.sqrt(dimensions * half_width**2 / 3 / np.average(squares, weights=mass))
 
 
 def random_stream(scene: Scene, seed: int, realization: int) -> np.random.Generator:

@@ -7,7 +7,13 @@ import numpy as np
 import xarray as xr
 
 from granugas.analysis.enskog import enskog_rate
-from granugas.analysis.observables import elastic_energy_fraction, elastic_particle_fraction, kinetic_energy
+from granugas.analysis.mixtures import mixture_rate
+from granugas.analysis.observables import (
+    elastic_energy_fraction,
+    elastic_particle_fraction,
+    kinetic_energy,
+    species_temperature_ratio,
+)
 from granugas.dynamics.events.engine import Tally
 from granugas.dynamics.state import State
 from granugas.sampling import Samples
@@ -75,8 +81,9 @@ class Record:
             **{name: np.full((several, *start.more[name].shape), np.nan) for name in VARYING if name in start.more},
         }
         self._windows = {"time": np.full(several, np.nan), "collisions": np.zeros((several, n), np.int64)}
-        self._start, self._energy = start, float(kinetic_energy(start.velocity).sum())
-        self._rate = float(enskog_rate(scene.area_fraction, self._energy / n, scene.diameter, dimensions))
+        self._start, self._mass = start, start.more.get("mass")
+        self._energy = float(kinetic_energy(start.velocity, self._mass).sum())
+        self._rate = _rate_of(scene, start, self._energy / n)
         self._done = 0
         self._sums = {
             "collisions": np.zeros((), np.int64),
@@ -123,7 +130,7 @@ class Record:
         self._write(state, observed)
         if dt > 0:
             gone, gone_time = tally.loss + tally.stored, tally.loss_time + tally.stored_time
-            energy = kinetic_energy(state.velocity).sum() + gone - gone_time / dt  # mean over the interval
+            energy = kinetic_energy(state.velocity, self._mass).sum() + gone - gone_time / dt  # mean over the interval
             stress = -tally.stress / (energy * dt)  # A Eq. 15, times V/E
             self._series["collision_rate"][k] = 2 * tally.collisions / (n * dt)
             self._series["reduced_pressure"][k] = 1 + np.trace(stress) / 2
@@ -178,6 +185,9 @@ class Record:
         if "y" in self._axes:
             data["initial_y"] = ("particle", self._start.position[:, 1])
         data["enskog_rate"] = self._rate
+        for name in ("diameter", "mass"):
+            if name in self._start.more:
+                data[f"particle_{name}"] = ("particle", self._start.more[name])
         for name, values in self._trajectory.items():
             data[name] = (("time", "particle", "axis")[: values.ndim], values)
         return data
@@ -185,19 +195,21 @@ class Record:
     def _write(self, state: State, observed: Mapping[str, float]) -> None:
         """Write what the state alone says, and what effects observe, into the next row."""
         k, n = self._done, self._scene.n_particles
-        along = kinetic_energy(state.velocity) / self._energy
+        along = kinetic_energy(state.velocity, self._mass) / self._energy
         self._time[k] = state.time
         self._series["tau"][k] = state.time * self._rate
         self._series["kinetic_energy"][k] = sum(along)
         for axis, share in zip(self._axes, along, strict=True):
             self._series[f"kinetic_energy_{axis}"][k] = share
+        if self._mass is not None:
+            observed = {**observed, "species_temperature_ratio": species_temperature_ratio(state.velocity, self._mass)}
         for name, value in observed.items():
             self._series.setdefault(name, np.full(len(self._time), np.nan))[k] = value
         self._series["collisions_per_particle"][k] = 2 * self._sums["collisions"] / n
         self._elastic["elastic_collisions_per_particle"][k] = 2 * self._sums["elastic_collisions"] / n
         instant = (state.last_collision_time, state.time, self._contact_times)
         self._elastic["elastic_particle_fraction"][k] = elastic_particle_fraction(*instant)
-        self._elastic["elastic_energy_fraction"][k] = elastic_energy_fraction(state.velocity, *instant)
+        self._elastic["elastic_energy_fraction"][k] = elastic_energy_fraction(state.velocity, *instant, self._mass)
         if ELASTIC_ON_AVERAGE in self._elastic:  # how long the particles were elastic since their last collisions
             since = state.time - state.last_collision_time
             self._sums["elastic_so_far"][:] = np.minimum(since, self._contact_times[:, np.newaxis]).sum(axis=1)
@@ -205,3 +217,10 @@ class Record:
         for name, values in self._trajectory.items():
             values[k] = now[name]
         self._done += 1
+
+
+def _rate_of(scene: Scene, start: State, energy_per_mass: float) -> float:
+    """Enskog's collision rate of a particle in 1/s."""
+    if "diameter" in start.more:
+        return mixture_rate(scene.area_fraction, energy_per_mass, start.more["diameter"], scene.dimensions)
+    return float(enskog_rate(scene.area_fraction, energy_per_mass, scene.diameter, scene.dimensions))

@@ -14,6 +14,9 @@ ENGINE = {1: 220, 2: 260, 3: 370}
 START = 16
 """Bytes a particle of a start state, and as many for each axis."""
 
+UNEQUAL, HEATED = 48, 48
+"""Bytes a particle more where sizes differ (in the tables, two states and the record), and while kicks are drawn."""
+
 SNAPSHOT, WINDOW = 24, 8
 """Bytes a particle of a snapshot, besides 16 for each axis, and of the count of collisions before it."""
 
@@ -32,7 +35,8 @@ def memory_of(run: Run) -> int:
     of_disks = n * (8 + frame * samples + (SNAPSHOT + 16 * axes + WINDOW) * len(run.snapshots))
     kept = of_disks + samples * (SAMPLE + OF_CONTACT_TIME * len(run.scene.contact_times))
     copies = 2 if realizations > 1 else 1
-    return n * (ENGINE[axes] + START * (1 + axes) * realizations) + kept * realizations * copies
+    engine = ENGINE[axes] + UNEQUAL * (run.scene.sizes != "equal") + HEATED * (run.scene.heating > 0)
+    return n * (engine + START * (1 + axes) * realizations) + kept * realizations * copies
 
 
 def memory_at_hand() -> int:

@@ -92,7 +92,7 @@ class Run:
         scene = self.scene
         rate = float(enskog_rate(scene.area_fraction, scene.energy_per_mass, scene.diameter, scene.dimensions))
         tau = rate * self.until.get("time", math.inf)
-        collisions = tau if self.scene.restitution == 1 else _collisions_in_cooling(tau, self.scene)
+        collisions = tau if self.scene.restitution == 1 or self.scene.heating > 0 else _collisions_in_cooling(tau, self.scene)
         collisions = min(collisions, self.until.get("collisions_per_particle", math.inf))
         collisions *= len(self.realizations)
         return START_SECONDS + SECONDS_PER_COLLISION * self.scene.n_particles * collisions / 2

@@ -122,6 +122,11 @@ class Scene:
         aspect_ratio: Lx / Ly of the box, in 3D with Lz = sqrt(Lx Ly); an explicit lattice takes the nearest that it can.
         tangential_restitution: beta in [-1, 1], by which a contact reverses the surfaces' tangential velocity; -1: smooth.
         friction: mu; a contact passes on no more tangential momentum than mu times the normal one; infinite: no such limit.
+        sizes: how the diameters are distributed; d is their mean, masses go like their D-th power.
+        size_ratio: of bidisperse particles, diameter of a large by that of a small one.
+        size_share: of bidisperse particles, how many of all are large.
+        size_spread: by the mean diameter: half width of uniform, standard deviation of log-normal diameters.
+        heating: energy by mass and time that random kicks put in (m^2/s^3); 0: none.
 
     Raises:
         SceneError: a value outside of what is allowed.
@@ -140,6 +145,11 @@ class Scene:
     aspect_ratio: float = number(1.0, above=0.0, within=MOST_SLENDER, start=True)
     tangential_restitution: float = number(-1.0, at_least=-1.0, at_most=1.0)
     friction: float = number(math.inf, at_least=0.0, endless=True)
+    sizes: str = choice("equal", "bidisperse", "uniform", "log_normal", start=True)
+    size_ratio: float = number(2.0, at_least=1.0, at_most=10.0, start=True)
+    size_share: float = number(0.5, at_least=0.0, at_most=1.0, start=True)
+    size_spread: float = number(0.2, at_least=0.0, at_most=0.9, start=True)
+    heating: float = number(0.0, at_least=0.0, at_most=EXTREME, unit="m^2/s^3")
 
     def __post_init__(self) -> None:
         if isinstance(self.contact_time, (tuple, list)):
@@ -165,10 +175,20 @@ class Scene:
                 raise SceneError("contact_time", self.contact_time, allowed)
             object.__setattr__(self, "contact_time", tuple(map(float, self.contact_time)))
 
+        if self.heating > 0 and self.n_particles == 1:
+            raise SceneError(
+                "heating", self.heating, "allowed at n_particles = 1 is 0, as kicks leave the centre of mass alone"
+            )
+
     @property
     def volume(self) -> float:
-        """V = N pi d^2 / (4 nu) in m^2, or what it is in D dimensions, in m^D."""
-        return box_volume(self.n_particles, self.area_fraction, self.diameter, self.dimensions)
+        """V = N pi <d^2> / (4 nu) in m^2, or what it is in D dimensions, in m^D."""
+        volume = box_volume(self.n_particles, self.area_fraction, self.diameter, self.dimensions)
+        if self.sizes == "equal":
+            return volume
+        from granugas.diameters import moment  # which knows of scenes, and loads numpy
+
+        return volume * moment(self, self.dimensions)
 
     @property
     def energy_per_mass(self) -> float:

@@ -85,7 +85,7 @@ def simulate(
     if state is None:
         state = equilibrate(scene, seed=seed, realization=realization, progress=progress)
     need_start(scene, state)
-    engine = Engine(scene, state_of(state))
+    engine = Engine(scene, state_of(state, seed, realization))
     tell(doubts := doubts_before(scene, state.attrs, engine.cells, keep_positions))
     first = engine.state()
     record = Record(scene, first, points, times, keep_positions, keep_motion, engine.observe(first))

@@ -4,8 +4,8 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 from granugas.dynamics.events.engine import Engine
-from granugas.equilibrate import at_rest
-from granugas.initial import random_stream, sites, start_lattice, start_velocities
+from granugas.equilibrate import engine_at_start, on_lattice
+from granugas.initial import random_stream, start_lattice
 from granugas.scene import Scene
 
 
@@ -15,8 +15,8 @@ def warm_up(scenes: Iterable[Scene] = (Scene(),)) -> None:
     Processes that start at the same time on a cold cache would all compile the same.
     """
     for scene in scenes:
-        small = replace(scene, n_particles=16, area_fraction=0.2, lattice="auto", aspect_ratio=1.0)
-        for needed in (small, small.at_start()):
-            rng = random_stream(needed, 0, 0)
-            lattice = start_lattice(needed)
-            Engine(needed, at_rest(sites(lattice, 16, rng), start_velocities(needed, rng), lattice.box)).advance(1.0, 32)
+        small = replace(scene, n_particles=16, area_fraction=0.01, lattice="auto", aspect_ratio=1.0)
+        lattice = start_lattice(small)
+        start = on_lattice(small, lattice, random_stream(small, 0, 0))
+        for engine in (Engine(small, start), engine_at_start(small, start, lattice)):
+            engine.advance(1.0, 32)

@@ -127,3 +127,19 @@ def test_energy_of_rotation_counts() -> None:
     assert findings(data) == []
     data["rotational_energy"] = 2 * data["rotational_energy"]
     assert any(line.startswith("kinetic_energy rises") for line in findings(data))
+
+
+def test_a_heated_gas_may_gain_energy():
+    data = sound().assign_attrs(heating=1.0)
+    at("kinetic_energy", 2.0, time=-1)(data)
+    at("kinetic_energy_x", 2.0, time=-1)(data)
+    assert findings(data) == []
+    assert findings(data.assign_attrs(heating=0.0))
+
+
+def test_the_momentum_counts_masses():
+    data = sound()
+    data["velocity"] = data["velocity"] * xr.DataArray(np.tile([2.0, 1.0], N // 2), dims="particle")
+    assert any("mean that is not zero" in line for line in findings(data))
+    data["particle_mass"] = "particle", np.tile([1.0, 2.0], N // 2)
+    assert findings(data) == []

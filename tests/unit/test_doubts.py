@@ -120,3 +120,16 @@ def test_all_at_once_in_a_narrow_box_on_disk_and_pooled(tmp_path, caplog):
     assert read(tmp_path / "run.nc").attrs["warnings"] == runs[0].attrs["warnings"]
     pooled = pool([runs[0], runs[1].assign_attrs(warnings="")], ["n_particles"])
     assert pooled["warnings"].values.tolist() == [[runs[0].attrs["warnings"], ""]]
+
+
+def test_heating_that_nothing_balances():
+    lines = before(gg.Scene(n_particles=144, restitution=1.0, contact_time=0.0, heating=2.0))
+    assert lines == ["heating = 2 m^2/s^3 at restitution = 1: nothing dissipates, the energy grows without end"]
+    assert before(gg.Scene(n_particles=144, restitution=0.9, heating=2.0)) == []
+
+
+def test_keys_of_other_sizes():
+    assert before(gg.Scene(n_particles=144, size_ratio=3.0)) == ["size_ratio = 3 has no effect with sizes = equal"]
+    assert before(gg.Scene(n_particles=144, sizes="bidisperse", size_ratio=3.0)) == []
+    lines = before(gg.Scene(n_particles=144, sizes="uniform", size_share=0.1, size_spread=0.3))
+    assert lines == ["size_share = 0.1 has no effect with sizes = uniform"]

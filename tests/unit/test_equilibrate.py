@@ -9,7 +9,7 @@ from gases import lattice_gas
 
 from granugas.analysis.observables import kinetic_energy
 from granugas.dynamics.events.engine import Engine
-from granugas.equilibrate import equilibrate, judge, state_of
+from granugas.equilibrate import equilibrate, judge, need_start, state_of
 from granugas.initial import rescaled, start_lattice
 from granugas.scene import Scene
 
@@ -155,3 +155,24 @@ def test_a_start_that_does_not_get_there_says_so(monkeypatch, caplog):
         start = equilibrate(GAS, seed=5)
     assert start.attrs["equilibration_reached"] == 0
     assert "not in equilibrium after 0 collisions per particle" in caplog.text
+
+
+def test_a_start_of_different_sizes():
+    scene = Scene(300, 0.3, sizes="bidisperse", size_share=0.2)
+    start = equilibrate(scene, seed=5)
+    d, mass, velocity = (start[name].values for name in ("particle_diameter", "particle_mass", "velocity"))
+    assert kinetic_energy(velocity, mass).sum() == pytest.approx(300 * 0.5**2 / 3, rel=1e-13)
+    np.testing.assert_allclose(mass @ velocity, 0, atol=1e-12)
+    assert start.attrs["equilibration_reached"] == 1
+    assert state_of(start).more.keys() == {"diameter", "mass"}
+    large = d > d.mean()
+    assert large.sum() == 60
+    uneven = state_of(start)
+    uneven.velocity = uneven.velocity * np.where(large, 1.6, 1.0)[:, np.newaxis]
+    assert not judge(uneven, start_lattice(scene), melts=False).reached
+
+
+def test_equal_disks_are_no_start_of_different_sizes():
+    scene = Scene(378, 0.2267, sizes="uniform")
+    with pytest.raises(ValueError, match="one size"):
+        need_start(scene, equilibrate(GAS, seed=5, collisions_per_particle=1))

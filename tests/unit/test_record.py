@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from granugas.analysis.mixtures import mixture_rate
 from granugas.analysis.theory import enskog_rate
 from granugas.dynamics.events.engine import Tally
 from granugas.dynamics.state import State
@@ -187,3 +188,15 @@ def test_two_samples_at_one_instant():
     assert data["collisions_per_particle"] == 2
     assert np.isnan(data["collision_rate"])
     assert np.isnan(data["reduced_pressure"])
+
+
+def test_masses_count_where_they_differ():
+    start = state(0.0)
+    start.more.update(diameter=np.array([1.5e-3, 0.5e-3, 1e-3, 1e-3]), mass=np.array([2.0, 0.5, 1.0, 0.5]))
+    run = Record(SCENE, start, Samples("time", np.array([1.0])), (), False)
+    run.sample(state(1.0, [[0.5, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]]), tally())
+    data = run.dataset()
+    assert data["kinetic_energy_x"].values.tolist() == [2.5 / 4, 1 / 4]
+    assert data["species_temperature_ratio"].values[0] == 2 / (2 / 3)
+    assert data["particle_mass"].values.tolist() == [2.0, 0.5, 1.0, 0.5]
+    assert data["enskog_rate"] == mixture_rate(0.1, 0.5, start.more["diameter"])

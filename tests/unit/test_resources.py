@@ -3,6 +3,7 @@
 import gc
 import resource
 import tracemalloc
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -15,9 +16,9 @@ from granugas.resources import ENGINE, START, memory_at_hand, memory_of
 from granugas.runs import Run
 
 
-def run_of(n=2000, count=10, realizations=(0,), snapshots=(), keep_positions=False, keep_motion=False, dimensions=2) -> Run:
+def run_of(n=2000, count=10, realizations=(0,), snapshots=(), keep_positions=False, keep_motion=False, **effects) -> Run:
     samples = {"spacing": "linear", "count": count, "first": 1e-4, "axis": "time"}
-    scene = gg.Scene(n_particles=n, dimensions=dimensions)
+    scene = gg.Scene(n_particles=n, **effects)
     return Run(scene, 1, realizations, {"time": 1e-3}, samples, snapshots, 1.0, keep_positions, keep_motion)
 
 
@@ -33,11 +34,16 @@ def run_of(n=2000, count=10, realizations=(0,), snapshots=(), keep_positions=Fal
         run_of(n=50_000, dimensions=3),
         run_of(n=5000, count=100, keep_positions=True, dimensions=3),
         run_of(n=50_000, dimensions=1),
+        run_of(n=20_000, sizes="bidisperse"),
+        run_of(n=5000, heating=1e-9),
     ],
-    ids=["disks", "positions", "motion", "snapshots", "realizations", "samples", "spheres", "positions of spheres", "beads"],
+    ids=[
+        *("disks", "positions", "motion", "snapshots", "realizations", "samples"),
+        *("spheres", "positions of spheres", "beads", "sizes", "heated"),
+    ],
 )
 def test_the_estimate_is_near_what_is_taken(run):
-    small = run_of(n=100, dimensions=run.scene.dimensions)
+    small = replace(run, scene=replace(run.scene, n_particles=100))
     perform(small, start_states(small))  # what compilation takes is apart
     states = start_states(run)
     gc.collect()

@@ -3,8 +3,10 @@
 import math
 from dataclasses import FrozenInstanceError
 
+import numpy as np
 import pytest
 
+from granugas.diameters import diameters
 from granugas.geometry import CLOSE_PACKING
 from granugas.scene import SCENE_KEYS, START_KEYS, Scene, SceneError, scene_from
 
@@ -77,6 +79,12 @@ WRONG = [
     ("dimensions", 0, "2, 1, 3"),
     ("dimensions", "2", "2"),
     ("boundary", "wall", "periodic"),
+    ("sizes", "gamma", "equal, bidisperse, uniform, log_normal"),
+    ("size_ratio", 0.5, "a number >= 1 and <= 10"),
+    ("size_share", 1.1, "a number >= 0 and <= 1"),
+    ("size_spread", 0.95, "a number >= 0 and <= 0.9"),
+    ("heating", -1.0, "a number >= 0"),
+    ("heating", math.inf, "a number >= 0"),
 ]
 
 
@@ -138,3 +146,16 @@ def test_equilibration_knows_only_what_decides_the_start():
 def test_an_unknown_key_is_named():
     with pytest.raises(SceneError, match=r"restitutoin = 0\.4: unknown key; allowed are n_particles, area_fraction, "):
         scene_from({"n_particles": 5, "restitutoin": 0.4})
+
+
+def test_a_single_particle_cannot_be_kicked():
+    with pytest.raises(SceneError, match=r"heating = 1\.0: allowed at n_particles = 1 is 0"):
+        Scene(1, 0.1, heating=1.0)
+
+
+@pytest.mark.parametrize("sizes", ["bidisperse", "uniform", "log_normal"])
+def test_the_area_fraction_counts_the_real_areas(sizes):
+    scene = Scene(500, 0.3, sizes=sizes, size_spread=0.4)
+    d = diameters(scene) * scene.diameter
+    assert np.sum(np.pi / 4 * d**2) / scene.volume == pytest.approx(0.3)
+    assert scene.volume > Scene(500, 0.3).volume

@@ -118,3 +118,11 @@ def test_rough_disks(area_fraction, restitution, contact_time, beta, mu, start_o
     scene = Scene(42, area_fraction, restitution, contact_time, tangential_restitution=beta, friction=mu)
     assert np.all(start_of(scene).more["spin"] != 0)
     check(scene, start_of)
+
+
+@pytest.mark.parametrize(("sizes", "spread"), [("bidisperse", 0.2), ("uniform", 0.5), ("log_normal", 0.15)])
+@pytest.mark.parametrize(("restitution", "contact_time"), [(1.0, 0.0), (0.8, 0.0), (0.4, 1.0e-5)])
+@pytest.mark.parametrize("area_fraction", [0.05, 0.25])
+def test_disks_of_different_sizes(area_fraction, restitution, contact_time, sizes, spread, start_of):
+    scene = Scene(42, area_fraction, restitution, contact_time, sizes=sizes, size_share=0.3, size_spread=spread)
+    check(scene, start_of)

@@ -91,7 +91,8 @@ def clusters_of_run(run: xr.Dataset, distance_factors: Sequence[float] = PAPER_F
     """Clusters over the `trajectory` of a run, or over the `position` of its snapshots where it kept no trajectory.
 
     Args:
-        run: dataset of one run with the attributes box_x, box_y and diameter in m. It may be opened lazily: one time
+        run: dataset of one run with the attributes box_x, box_y and diameter in m; with the variable particle_diameter
+            where diameters differ. It may be opened lazily: one time
             is in memory at once.
         distance_factors: S_c.
 
@@ -108,9 +109,10 @@ def clusters_of_run(run: xr.Dataset, distance_factors: Sequence[float] = PAPER_F
     time = frames.dims[0]
     if frames.ndim != 3 or time not in ("time", "snapshot"):
         raise ValueError(f"{name} has the dimensions {frames.dims}: select one run of them first")
+    diameter = run["particle_diameter"].values if "particle_diameter" in run else run.attrs["diameter"]
     box = [run.attrs[f"box_{axis}"] for axis in frames.axis.values]
     arrays = (frames.isel({time: index}).values for index in range(frames.sizes[time]))
-    found = clusters_of_frames(arrays, box, run.attrs["diameter"], distance_factors).rename(time=time)
+    found = clusters_of_frames(arrays, box, diameter, distance_factors).rename(time=time)
     coordinates = {key: value for key, value in frames.coords.items() if set(value.dims) <= {time}}
     return describe(found.assign_coords(coordinates).assign_attrs(run.attrs))
 
@@ -140,9 +142,10 @@ def clusters_of_frames(
         if nobody.all():
             rows.append(np.full((len(factors), 4 + len(bins) - 1), np.nan))
             continue
+        there = diameter
         if nobody.any():
-            positions = positions[~nobody]
-        found = _find(positions, box, diameter, factors)
+            positions, there = positions[~nobody], np.broadcast_to(diameter, len(nobody))[~nobody]
+        found = _find(positions, box, there, factors)
         numbers = [_binned(sizes, bins) for sizes in found.sizes]
         rows.append(np.column_stack([found.counts, found.mean_sizes, found.weighted_sizes, found.largest_sizes, numbers]))
     if not rows:

@@ -1,4 +1,4 @@
-"""Observables of one instant from the arrays of the particles; all masses are equal."""
+"""Observables of one instant from the arrays of the particles; all masses are equal where none are given."""
 
 from itertools import combinations
 
@@ -8,9 +8,28 @@ from numpy.typing import ArrayLike, NDArray
 Numbers = NDArray[np.float64]
 
 
-def kinetic_energy(velocity: Numbers) -> Numbers:
-    """(dim,) kinetic energies E_x/m, E_y/m of the motion along each axis in (m/s)^2 from velocities (n, dim) in m/s."""
-    return 0.5 * np.einsum("ia,ia->a", velocity, velocity)
+def kinetic_energy(velocity: Numbers, mass: Numbers | None = None) -> Numbers:
+    """(dim,) kinetic energies E_x/m, E_y/m of the motion along each axis in (m/s)^2.
+
+    Args:
+        velocity: (n, dim) in m/s.
+        mass: (n,) in units of m.
+    """
+    if mass is None:
+        return 0.5 * np.einsum("ia,ia->a", velocity, velocity)
+    return 0.5 * np.einsum("i,ia,ia->a", mass, velocity, velocity)
+
+
+def species_temperature_ratio(velocity: Numbers, mass: Numbers) -> float:
+    """Mean kinetic energy of particles above the mean mass, by that of the others; NaN where all masses are equal.
+
+    Of bidisperse particles: T_large / T_small. Arguments as in `kinetic_energy`; the mean velocity must have been removed.
+    """
+    heavy = mass > mass.mean()
+    if not heavy.any():
+        return float("nan")
+    energy = mass * np.einsum("ia,ia->i", velocity, velocity)
+    return float(energy[heavy].mean() / energy[~heavy].mean())
 
 
 def velocity_kurtosis(velocity: Numbers) -> Numbers:
@@ -47,12 +66,15 @@ def elastic_particle_fraction(last_collision_time: Numbers, time: float, contact
     return np.sum(_elastic(last_collision_time, time, contact_time) & others, axis=-1) / max(others.sum(), 1)
 
 
-def elastic_energy_fraction(velocity: Numbers, last_collision_time: Numbers, time: float, contact_time: ArrayLike) -> Numbers:
+def elastic_energy_fraction(
+    velocity: Numbers, last_collision_time: Numbers, time: float, contact_time: ArrayLike, mass: Numbers | None = None
+) -> Numbers:
     """e_e = E_e/E, the share of the kinetic energy that elastic particles carry (A section 5.4).
 
-    Arguments as in `elastic_particle_fraction`, velocities (n, dim) in m/s.
+    Arguments as in `elastic_particle_fraction`, velocities (n, dim) in m/s, masses (n,) where they differ.
     """
-    energy = np.where(_colliding(last_collision_time, time), 0.0, np.einsum("ia,ia->i", velocity, velocity))
+    each = np.einsum("ia,ia->i", velocity, velocity) * (1.0 if mass is None else mass)
+    energy = np.where(_colliding(last_collision_time, time), 0.0, each)
     return _elastic(last_collision_time, time, contact_time) @ energy / (energy.sum() or 1.0)
 
 

@@ -17,6 +17,7 @@ from granugas.analysis.enskog import (  # noqa: F401 - here is where formulas ar
     reduced_pressure,
     rms_speed,
 )
+from granugas.analysis.mixtures import mixture_contact_values, mixture_pressure, mixture_rate  # noqa: F401 - likewise
 from granugas.geometry import INERTIA, ROTATIONS
 
 Numbers = NDArray[np.float64]
@@ -36,6 +37,29 @@ def energy_of_elastic_particles(dimensions: int) -> float:
 def virial_pressure(area_fraction: ArrayLike) -> Numbers:
     """P V / E = sum over k of B_k / B_2^(k-1) (2 nu)^(k-1) up to the fifth virial coefficient: for dilute gases."""
     return np.polynomial.polynomial.polyval(2 * np.asarray(area_fraction, dtype=float), VIRIAL_COEFFICIENTS)
+
+
+def sonine_coefficient_heated(restitution: ArrayLike) -> Numbers:
+    """a_2 of the velocities in the steady state of random kicks (van Noije & Ernst, Granular Matter 1 (1998) 57).
+
+    16 (1-r)(1-2r^2) / [73 + 56 D - 24 D r - 105 r + 30 (1-r) r^2], in two dimensions.
+    """
+    r = np.asarray(restitution, dtype=float)
+    return 16 * (1 - r) * (1 - 2 * r**2) / (185 - 153 * r + 30 * r**2 * (1 - r))
+
+
+def steady_temperature(heating: ArrayLike, restitution: ArrayLike, rate: ArrayLike) -> Numbers:
+    """kT/m in (m/s)^2 where kicks put in what collisions dissipate: heating = (1 - r^2) (1 + 3 a_2/16) w kT / (2 m).
+
+    A collision dissipates (1 - r^2) kT on average (<u_n^2> = 4 kT/m), and there are w/2 of them by particle and time.
+
+    Args:
+        heating: energy by mass and time in m^2/s^3.
+        restitution: r < 1.
+        rate: of collisions at kT/m = 1 (m/s)^2 in 1/s; w is this by sqrt(kT/m).
+    """
+    correction = 1 + 3 * sonine_coefficient_heated(restitution) / 16
+    return (2 * np.asarray(heating) / (_dissipation(restitution) * correction * np.asarray(rate))) ** (2 / 3)
 
 
 def elastic_particle_fraction(contact_time: ArrayLike, rate: ArrayLike) -> Numbers:

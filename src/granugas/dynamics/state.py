@@ -18,6 +18,7 @@ class State:
         last_collision_interval: (N,), time between the last two collisions in s; inf where there were none.
         collisions: (N,), number of collisions so far.
         more: arrays (N, ...) of what effects know of each particle (diameter, mass, spin ...), by name.
+        seed: numbers that what is drawn at random on the way follows from.
     """
 
     time: float
@@ -28,3 +29,4 @@ class State:
     last_collision_interval: np.ndarray
     collisions: np.ndarray
     more: dict[str, np.ndarray] = field(default_factory=dict)
+    seed: tuple[int, ...] = ()

@@ -5,10 +5,11 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from granugas.diameters import largest
 from granugas.scene import Scene
 
 TOUCH = 1.0 + 1.0e-9
-"""Least distance of two centres on a start lattice, in diameters."""
+"""Least distance of two centres on a start lattice, in diameters of the largest particle."""
 
 MOST_STRETCH = 1.5
 """How far the box of a regular lattice may leave the aspect ratio that was asked for (a factor)."""
@@ -50,7 +51,7 @@ class Lattice:
 
     def holds(self, scene: Scene) -> bool:
         """Whether the particles do not overlap on it."""
-        return self.spacing >= scene.diameter * TOUCH
+        return self.spacing >= scene.diameter * largest(scene) * TOUCH
 
 
 def asked_box(scene: Scene) -> tuple[float, ...]:

@@ -19,12 +19,15 @@ LEVELS = 2**32 - 1
 """Steps of the longest side of the box; the code LEVELS itself means that there is no value."""
 
 MOTION = {"trajectory_velocity": "f4", "trajectory_collisions": "i4"}
+BESIDE = ("sampling_time", "particle_diameter")
+"""What an analysis of positions needs with them, where a run has it."""
+
 VELOCITY_BITS = 10
 """Of a velocity's mantissa, one part in a thousand: enough for a picture, and half the bytes."""
 
 
 def write_positions(dataset: xr.Dataset, path: str | Path) -> None:
-    """Write `trajectory`, its motion, coordinates and the global attributes, 4 bytes a number, whole or not at all.
+    """Write `trajectory`, its motion, diameters where they differ, coordinates and the global attributes, 4 bytes a number, whole or not at all.
 
     A position is rounded down to a multiple of L / (2^32 - 1), L the longest side of the box; CF readers find that as
     `scale_factor`. It is packed time step by time step, so that no second copy is in memory.
@@ -39,7 +42,7 @@ def write_positions(dataset: xr.Dataset, path: str | Path) -> None:
     """
     trajectory = dataset["trajectory"]
     sides = np.array([dataset.attrs[f"box_{axis}"] for axis in dataset["axis"].values])
-    names = [name for name in dataset.variables if name in trajectory.coords or name == "sampling_time"]
+    names = [name for name in dataset.variables if name in trajectory.coords or name in BESIDE]
     header = describe(dataset[names])
     header.attrs = labels() | {name: value for name, value in dataset.attrs.items() if name != "content_sha256"}
     scale = sides.max() / LEVELS

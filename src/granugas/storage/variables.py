@@ -49,6 +49,11 @@ VARIABLES = {
     "aspect_ratio": Variable("1", "ratio of the sides of the box", "L_x / L_y"),
     "tangential_restitution": Variable("1", "coefficient of tangential restitution", "beta"),
     "friction": Variable("1", "coefficient of Coulomb friction", "mu"),
+    "sizes": Variable(None, "distribution of the diameters"),
+    "size_ratio": Variable("1", "diameter of a large particle by that of a small one, bidisperse particles"),
+    "size_share": Variable("1", "share of large particles in the number of all, bidisperse particles"),
+    "size_spread": Variable("1", "half width (uniform) or standard deviation (log-normal) of the diameters by their mean"),
+    "heating": Variable("m2 s-3", "energy by mass and time that random kicks put in"),
     # its start state
     "box_x": Variable("m", "side of the box along x", "L_x"),
     "box_y": Variable("m", "side of the box along y", "L_y"),
@@ -121,6 +126,12 @@ VARIABLES = {
     },
     "rotational_energy": Variable("1", "rotational energy by the initial kinetic energy", "E_rot/E(0)"),
     "temperature_ratio": Variable("1", "rotational by translational temperature", "R = T_rot/T_tr"),
+    "species_temperature_ratio": Variable(
+        "1",
+        "mean kinetic energy of particles above the mean mass (bidisperse: the large ones) by that of the others",
+        "T_l / T_s",
+    ),
+    "heating_power": Variable("m2 s-3", f"energy by mass and time that random kicks put in, {_INTERVAL}"),
     # clusters
     "cluster_count": Variable("1", "number of clusters, single particles included", "I_c", "B Eq. 6"),
     "mean_cluster_size": Variable("1", "mean number of particles in a cluster", "<M> = N/I_c", "B Eq. 7"),
@@ -128,6 +139,8 @@ VARIABLES = {
     "largest_cluster_size": Variable("1", "number of particles in the largest cluster", "M_max", "B section 5"),
     "cluster_size_distribution": Variable("1", "number of clusters in the bin of sizes", "n(M)", "B section 6"),
     # one value a particle
+    "particle_diameter": Variable("m", "diameter of a particle", "d_i", "B Eq. 6"),
+    "particle_mass": Variable("1", "mass of a particle by the mean mass", "m_i / m"),
     "position": Variable("m", "position of a particle in the box", "r_i"),
     "trajectory": Variable("m", "position of a particle in the box at the sampling times", "r_i"),
     "trajectory_velocity": Variable("m s-1", "velocity of a particle at the sampling times, rounded", "v_i"),

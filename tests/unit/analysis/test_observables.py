@@ -50,3 +50,16 @@ def test_partners_of_a_collision_at_this_moment_are_left_out():
     assert observables.elastic_energy_fraction(np.diag([1.0, 9.0, 9.0, 3.0]), last, time, 0.2) == pytest.approx(0.1)
     assert observables.elastic_particle_fraction(last[1:3], time, 0.2) == 0
     assert observables.elastic_energy_fraction(np.ones((2, 2)), last[1:3], time, 0.2) == 0
+
+
+def test_energies_count_masses():
+    mass = np.array([2.0, 1.0, 0.5, 0.5])
+    np.testing.assert_array_equal(observables.kinetic_energy(VELOCITY, mass), [1 + 9 / 4, 2])
+    carried = (2 + 4.5) / (2 + 4 + 4.5)
+    assert observables.elastic_energy_fraction(VELOCITY, LAST, 1.0, 0.25, mass) == pytest.approx(carried)
+
+
+def test_species_temperature_ratio():
+    """The first is the heavy one: m v^2 = 2, and (4 + 4.5 + 0)/3 of the others on average."""
+    assert observables.species_temperature_ratio(VELOCITY, np.array([2.0, 1.0, 0.5, 0.5])) == pytest.approx(2 * 3 / 8.5)
+    assert np.isnan(observables.species_temperature_ratio(VELOCITY, np.ones(4)))

@@ -24,6 +24,8 @@ SCENES = {
     "contact time": Scene(64, 0.5, restitution=0.4, contact_time=1e-5),
     "elongated": Scene(64, 0.25, restitution=0.9, contact_time=0.0, aspect_ratio=8.0),
     "rough": Scene(64, 0.25, restitution=0.8, contact_time=1e-5, tangential_restitution=0.5, friction=0.3),
+    "bidisperse": Scene(64, 0.3, restitution=0.8, contact_time=1e-5, sizes="bidisperse", size_ratio=1.5),
+    "heated": Scene(64, 0.25, restitution=0.9, contact_time=0.0, heating=5.0),
     "two": Scene(2, 0.3, restitution=1.0, contact_time=0.0),
 }
 COLLISIONS = 400

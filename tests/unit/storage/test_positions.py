@@ -93,3 +93,10 @@ def test_motion_is_kept_rounded(tmp_path):
         assert np.any(abs(found["trajectory_velocity"] - velocity) > 1e-5 * abs(velocity))  # rounded, so smaller
         np.testing.assert_array_equal(found["trajectory_collisions"], collisions)
         assert found["trajectory_velocity"].attrs["units"] == "m s-1"
+
+
+def test_different_diameters_are_kept(tmp_path):
+    diameters = [0.002, 0.003, 0.001]
+    write_positions(run_of(np.full((2, 3, 2), 0.5), particle_diameter=("particle", diameters)), tmp_path / "positions.nc")
+    with read_positions(tmp_path / "positions.nc") as found:
+        assert found["particle_diameter"].values.tolist() == diameters

@@ -47,6 +47,16 @@ def cancel(gas, i):
 
 
 @inline
+def clear(gas):
+    """Nobody has an event."""
+    gas.calendar.heap_size = 0
+    for k in range(gas.calendar.n_bins):
+        gas.bins.entry[k * SLOTS] = 0
+    for i in range(gas.calendar.n_disks):
+        cancel(gas, i)
+
+
+@inline
 def next_event(gas):
     """Take out the earliest event: its time and disk; NOBODY where none is left up to `calendar.until`."""
     calendar, heap = gas.calendar, gas.heap

@@ -5,18 +5,19 @@ from typing import Any
 
 from granugas.dynamics.events.boundary import Periodic
 from granugas.dynamics.events.collisions import Nothing, Smooth
+from granugas.dynamics.events.driving import Undriven
 from granugas.dynamics.events.effects import called_by
 from granugas.dynamics.events.flight import Straight
 from granugas.dynamics.events.sizes import Equal
 from granugas.dynamics.state import State
 from granugas.scene import Scene
 
-OTHERWISE = {"force": Straight, "walls": Periodic, "sizes": Equal, "surface": Smooth, "after": Nothing}
+OTHERWISE = {"force": Straight, "walls": Periodic, "sizes": Equal, "surface": Smooth, "after": Nothing, "drive": Undriven}
 """The effect of a place that a scene does not name."""
 
 
 def effects_of(scene: Scene, state: State) -> dict[str, Any]:
-    """The effect of each place (state.EFFECTS); `state` has what they know of each particle."""
+    """The effect of each place (state.EFFECTS, and `drive`, of which kernels know nothing); `state` has what they know of each particle."""
     files = {place: import_module(f"granugas.dynamics.events.effects.{name}") for place, name in called_by(scene).items()}
     material = files.pop("material").effect_of(scene, state)
     effects = {place: effect() for place, effect in OTHERWISE.items()}

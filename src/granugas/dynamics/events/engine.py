@@ -21,7 +21,7 @@ class Tally:
     Attributes:
         collisions: number of collisions (each has two partners).
         elastic: those that the TC rule made elastic; one number for each t_c of the scene.
-        loss: dissipated energy per mass (m^2/s^2).
+        loss: dissipated energy per mass (m^2/s^2), less what was put in.
         loss_time: sum of the losses times the time that was left of the interval (m^2/s).
         stress: (D, D), sum of dp_a l_b over both partners per mass (m^2/s; A Eq. 15).
         more: sums that effects keep, by name.
@@ -50,7 +50,7 @@ class Engine:
         self.scene = scene
         self.box = state.box
         self.effects = effects_of(scene, state) | {place: effect for place, effect in instead.items() if effect is not None}
-        tables = tables_of(state, scene.diameter)
+        tables = tables_of(state, scene.diameter, largest=self.effects["sizes"].largest)
         self.arrays = tables | {name: rows for place, effect in self.effects.items() for name, rows in _rows_of(place, effect)}
         self._gas = layout.bundle(tables, self.effects)
         loop.start(self._gas)
@@ -98,6 +98,18 @@ class Engine:
 
     def advance(self, until: float, most_collisions: int = 2**62, most_events: int = 2**62) -> int:
         """Process all events up to the time `until` (s), or the first so many; returns why it stopped (see loop)."""
+        last, drive = self.collisions + most_collisions, self.effects["drive"]
+        while (stop := drive.due(until)) is not None:
+            why = self._run(stop, last - self.collisions, most_events)
+            if why != loop.TIME:
+                return why
+            drive.act(self._gas)
+            most_events -= self.scene.n_particles  # which is about what it has cost
+            if most_events <= 0:
+                return loop.EVENTS
+        return self._run(until, last - self.collisions, most_events)
+
+    def _run(self, until: float, most_collisions: int, most_events: int) -> int:
         calendar = self._gas.calendar
         calendar.until = (until - calendar.base) - calendar.base_low
         why = loop.run(self._gas, most_collisions, most_events)

@@ -3,14 +3,15 @@
 import math
 
 from granugas.dynamics.events.boundary import NO_WALL, WALL_AND_CALL, bounce
-from granugas.dynamics.events.calendar import next_event, refresh_if_full
+from granugas.dynamics.events.calendar import clear, next_event, refresh_if_full
 from granugas.dynamics.events.cells import enter_cell, leave_cell, list_ahead, list_around, next_cell
-from granugas.dynamics.events.collisions import collide
+from granugas.dynamics.events.collisions import collide, lose
 from granugas.dynamics.events.composition import ANY, generic, implements, inline, kernel
-from granugas.dynamics.events.flight import next_step, position, velocity
+from granugas.dynamics.events.flight import next_step, position, settle, velocity
 from granugas.dynamics.events.predict import look_around, plan
+from granugas.dynamics.events.sizes import mass
 from granugas.dynamics.events.state import NOBODY
-from granugas.dynamics.events.vectors import minus, times
+from granugas.dynamics.events.vectors import dot, minus, plus, times
 
 TIME, COLLISIONS, EVENTS, WATCH = 0, 1, 2, 3
 """Why the loop ended: no event is left up to `calendar.until`, a number was reached, or the watch called."""
@@ -111,3 +112,30 @@ def start(gas):
         enter_cell(gas, i)
     for i in range(n):
         _look_everywhere(gas, i, now)
+
+
+@kernel
+def kick(gas, kicks):
+    """Add `kicks.dv` to the velocities at the time that is reached, and predict everything anew; the energy put in."""
+    calendar, disks = gas.calendar, gas.disks
+    calendar.now = calendar.reached
+    gain = 0.0
+    for i in range(calendar.n_disks):
+        settle(gas.force, gas, i, calendar.now)
+        v, dv = disks.v[i], kicks.dv[i]
+        disks.v[i] = plus(v, dv)
+        gain += mass(gas.sizes, i) * (dot(v, dv) + 0.5 * dot(dv, dv))
+    lose(gas.tally, -gain, calendar.now)
+    predict_anew(gas)
+    return gain
+
+
+@inline
+def predict_anew(gas):
+    """Predict everything again from what the particles are at `calendar.now`."""
+    clear(gas)
+    for i in range(gas.calendar.n_disks):
+        _forget(gas, i)
+    for i in range(gas.calendar.n_disks):
+        refresh_if_full(gas)  # which may move the origin of times
+        _look_everywhere(gas, i, gas.calendar.now)

@@ -8,6 +8,8 @@ from granugas.dynamics.events.composition import generic, implements
 class Equal(NamedTuple):
     """Particles of one size."""
 
+    largest = 1.0
+
 
 @generic
 def reach(sizes, i, j):
@@ -32,6 +34,11 @@ def reduced_mass(sizes, i, j):
 @generic
 def shares(sizes, i, j):
     """Shares of i and j in a change of their relative velocity: reduced mass by mass."""
+
+
+@generic
+def resize(sizes, i, radius):
+    """Let particle i have another radius (d)."""
 
 
 @implements(reach, Equal)

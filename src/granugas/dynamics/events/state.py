@@ -142,7 +142,7 @@ EFFECTS = Gas._fields[Gas._fields.index("rule") :]
 
 
 def bundle(arrays: dict[str, np.ndarray], effects: dict[str, Any]) -> Gas:
-    """The arrays (named and laid out as `layouts` says) as tables and records, with an effect for each of EFFECTS."""
+    """The arrays (named and laid out as `layouts` says) as tables and records, with the effect of each of EFFECTS."""
     names = Gas._fields[: -len(EFFECTS)]
     seen = {name: (Record if name in RECORDS else Table)(arrays[name]) for name in names}
-    return Gas(**seen, **effects)
+    return Gas(**seen, **{place: effects[place] for place in EFFECTS})

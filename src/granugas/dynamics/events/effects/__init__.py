@@ -7,7 +7,7 @@ from granugas.scene import Scene
 
 
 def called_by(scene: Scene) -> dict[str, str]:
-    """The effect files that a scene calls for, by the place that each takes in a gas (state.EFFECTS).
+    """The effect files that a scene calls for, by the place that each takes (cast.effects_of).
 
     A place that is not named holds what scenes without such an effect do. `material` answers for the coefficient of
     restitution where the rule leaves it to it.
@@ -20,6 +20,10 @@ def called_by(scene: Scene) -> dict[str, str]:
         called["watch"] = "collapse" if dissipates else "elastic_time"
     if scene.rough:
         called["surface"] = "rough"
+    if scene.sizes != "equal":
+        called["sizes"] = "unequal"
+    if scene.heating > 0:
+        called["drive"] = "kicks"
     return called
 
 
