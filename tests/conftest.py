@@ -15,7 +15,7 @@ from granugas.initial import random_stream, start_lattice, start_velocities
 from granugas.scene import Scene
 
 TILTED = {2: 1, 3: 1, 5: 2}
-"""Few disks start at (k, m k)/N of the box, which leaves them more room than rows and columns do: m for each N."""
+"""Few disks start at (k, m k)/N of the box (spheres: and m^2 k), where they have more room than in rows: m for each N."""
 
 
 @pytest.fixture(scope="session")
@@ -32,8 +32,8 @@ def start_of() -> Callable[..., State]:
 def _after_elastic_collisions(scene: Scene, realization: int) -> State:
     rng, n = random_stream(scene, 0, realization), scene.n_particles
     if n in TILTED:
-        box = (math.sqrt(scene.volume),) * 2
-        position = np.outer(np.arange(n), [1, TILTED[n]]) % n * box[0] / n
+        box = (scene.volume ** (1 / scene.dimensions),) * scene.dimensions
+        position = np.outer(np.arange(n), TILTED[n] ** np.arange(scene.dimensions)) % n * box[0] / n
         start = at_rest(position, start_velocities(scene, rng), box)
     else:
         start = on_lattice(scene, start_lattice(scene), rng)

@@ -1,13 +1,11 @@
-"""Hard disks by brute force: every pair at every step, no cells, no calendar, nothing remembered but clocks."""
+"""Hard beads, disks and spheres by brute force: every pair at every step, no cells, no calendar, nothing remembered but clocks."""
 
 from dataclasses import dataclass
+from itertools import product
 
 import numpy as np
 
 from granugas.dynamics.state import State
-
-ALL_IMAGES = np.array([(x, y) for x in (-1, 0, 1) for y in (-1, 0, 1)], float)
-"""Of a disk in a periodic box, in boxes."""
 
 IN_TOUCH = 1.0e-11
 """Two disks so near (d) ..."""
@@ -28,7 +26,7 @@ class Stretch:
         pair: (C, 2), i < j.
         approach: (C,), in d: how far the partners came towards each other since one of them collided last.
         elastic: (C,), whether that was within t_c.
-        velocity: (N, 2), in m/s.
+        velocity: (N, D), in m/s.
         last_collision_time: (N,), in s.
         spin: (N,) or (N, 3), in 1/s.
     """
@@ -102,17 +100,16 @@ def first_contact(
 ) -> tuple[float, int, int, np.ndarray]:
     """The earliest |r + u t| = d of all pairs, d for each: the delay, i and j, and the unit vector from i to j at the contact.
 
-    In a large box a pair meets in its nearest image, as long as it moves by less than L/2 - d before; in a small box in one
-    of the nine, as long as it moves by less than L/2. Where nobody meets in so short a time: that time, and i = j.
+    In a large box a pair meets in its nearest image, as long as it moves by less than L/2 - d before; in a small box in that
+    or one beside it, as long as it moves by less than L/2. Where nobody meets in so short a time: that time, and i = j.
     """
     large = box.min() > 4 * d.max()
-    images = np.zeros((1, 2)) if large else ALL_IMAGES
+    images = np.array([*product([0] if large else [-1, 0, 1], repeat=len(box))], float)
     reach = (box.min() / 2 - d.max() * large) / (2 * np.linalg.norm(v, axis=1).max())
     i, j = pairs
     r, u = x[j] - x[i], v[j] - v[i]
-    rx, ry = (r - box * np.round(r / box)).T[:, None, :] + (images * box).T[:, :, None]
-    ux, uy = u.T
-    r_u, u_u, gap = rx * ux + ry * uy, ux * ux + uy * uy, rx * rx + ry * ry - d * d
+    r = (r - box * np.round(r / box)) + (images * box)[:, np.newaxis, :]
+    r_u, u_u, gap = np.sum(r * u, axis=-1), np.sum(u * u, axis=-1), np.sum(r * r, axis=-1) - d * d
     root = r_u * r_u - u_u * gap
     meets = (r_u < 0) & (root > 0) & ((gap > 2 * IN_TOUCH * d * d) | (r_u * r_u > u_u * (AT_REST * d) ** 2))
     delay = np.full(root.shape, np.inf)
@@ -120,6 +117,6 @@ def first_contact(
     image, k = np.unravel_index(np.argmin(delay), delay.shape)
     first = delay[image, k]
     if first > reach:
-        return reach, 0, 0, np.zeros(2)
-    normal = np.array([rx[image, k], ry[image, k]]) + u[k] * first
+        return reach, 0, 0, np.zeros(len(box))
+    normal = r[image, k] + u[k] * first
     return first, i[k], j[k], normal / np.linalg.norm(normal)
