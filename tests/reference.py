@@ -1,4 +1,4 @@
-"""Hard beads, disks and spheres by brute force: every pair at every step, no cells, no calendar, nothing remembered but clocks."""
+"""Hard beads, disks and spheres by brute force: every pair at every step, no cells, no calendar, no memory but clocks."""
 
 from dataclasses import dataclass
 from itertools import product

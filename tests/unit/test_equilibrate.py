@@ -84,6 +84,35 @@ def test_dense_fluids_melt_and_crystals_stay():
     assert melted.attrs["equilibration_reached"] == kept.attrs["equilibration_reached"] == 1
 
 
+def test_spheres_melt_below_freezing_and_crystals_stay():
+    melted, kept = (equilibrate(Scene(500, fraction, dimensions=3), seed=1) for fraction in (0.45, 0.6))
+    assert [start.attrs["branch"] for start in (melted, kept)] == ["fluid", "crystal"]
+    assert melted.attrs["equilibration_order"] < 16 < 100 < kept.attrs["equilibration_order"]
+    assert melted.attrs["equilibration_reached"] == kept.attrs["equilibration_reached"] == 1
+    assert kinetic_energy(melted["velocity"].values).sum() == pytest.approx(500 * 0.5**2 / 2)
+    assert [kept.attrs[f"lattice_{name}"] for name in ("columns", "rows", "layers")] == [5, 5, 5]
+
+
+@pytest.mark.parametrize("kind", ["cubic", "fcc"])
+def test_the_order_of_spheres_on_a_full_lattice_is_n(kind):
+    scene = Scene(512 if kind == "cubic" else 500, 0.3, lattice=kind, dimensions=3)
+    lattice, state = start_lattice(scene), lattice_gas(scene)
+    assert judge(state, lattice, melts=True).order == pytest.approx(scene.n_particles)
+    state.position[:, :2] = np.random.default_rng(0).uniform(0, lattice.box[0], (scene.n_particles, 2))
+    assert judge(state, lattice, melts=True).order == pytest.approx(scene.n_particles), "layers alone are an order"
+
+
+@pytest.mark.parametrize("area_fraction", [0.1, 0.95])
+def test_beads_forget_their_places_at_any_density(area_fraction):
+    """The order is that of points without diameter, so dense beads need not look ordered."""
+    scene = Scene(400, area_fraction, dimensions=1)
+    assert judge(lattice_gas(scene), start_lattice(scene), True, scene.diameter).order == pytest.approx(400)
+    start = equilibrate(scene, seed=1, collisions_per_particle=20)
+    assert start.attrs["equilibration_reached"] == 1
+    assert start.attrs["equilibration_collisions_per_particle"] == pytest.approx(20)
+    assert start.attrs["equilibration_order"] < 10
+
+
 @pytest.mark.parametrize("n_particles", [1, 2, 3])
 def test_few_disks(n_particles):
     start = equilibrate(Scene(n_particles=n_particles, area_fraction=0.2), seed=1)

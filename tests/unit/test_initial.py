@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy import stats
 from scipy.spatial import cKDTree
 
 from granugas.geometry import CLOSE_PACKING
@@ -24,16 +25,14 @@ def least_distance(position, box):
 
 
 def check_start(scene):
-    """All disks inside of a box of the right area, no two overlap."""
+    """All particles inside of a box of the right volume, no two overlap."""
     lattice = start_lattice(scene)
     position = sites(lattice, scene.n_particles, RNG(0))
-    assert position.shape == (scene.n_particles, 2)
+    assert position.shape == (scene.n_particles, scene.dimensions)
     assert np.all((position >= 0) & (position < lattice.box))
-    assert lattice.box[0] * lattice.box[1] >= scene.volume * (1 - 1e-12)
+    assert math.prod(lattice.box) == pytest.approx(scene.volume)
     assert least_distance(position, lattice.box) >= scene.diameter
-    assert (
-        least_distance(position, lattice.box) == pytest.approx(lattice.spacing) or scene.n_particles < lattice.nx * lattice.ny
-    )
+    assert least_distance(position, lattice.box) == pytest.approx(lattice.spacing) or scene.n_particles < lattice.n_sites
     return lattice
 
 
@@ -88,6 +87,57 @@ def test_the_square_lattice_of_paper_b():
     assert lattice.box == pytest.approx((0.1, 0.1))
 
 
+@pytest.mark.parametrize("n_particles", [1, 2, 42, 1009])
+@pytest.mark.parametrize("area_fraction", [0.001, 0.5, 0.95])
+def test_any_number_of_beads(n_particles, area_fraction):
+    scene = Scene(n_particles, area_fraction, dimensions=1)
+    assert check_start(scene).box == pytest.approx((n_particles * 1e-3 / area_fraction,))
+
+
+@pytest.mark.parametrize("area_fraction", [0.001, 0.15, 0.3, 0.45, 0.49])
+@pytest.mark.parametrize("n_particles", [*range(27, 41), 64, 97, 500, 1009, 4097])
+def test_any_number_of_spheres(n_particles, area_fraction):
+    lattice = check_start(Scene(n_particles, area_fraction, dimensions=3))
+    assert math.prod(lattice.counts) * (4 if lattice.kind == "fcc" else 1) == lattice.n_sites >= n_particles
+
+
+@pytest.mark.parametrize("n_particles", [1, 2, 3, 4, 5])
+@pytest.mark.parametrize("area_fraction", [0.001, 0.1, 0.2])
+def test_few_spheres(n_particles, area_fraction):
+    check_start(Scene(n_particles, area_fraction, dimensions=3))
+
+
+@pytest.mark.parametrize(("n_particles", "kind", "counts"), [(1000, "cubic", (10, 10, 10)), (500, "fcc", (5, 5, 5))])
+def test_regular_lattices_of_spheres(n_particles, kind, counts):
+    lattice = check_start(Scene(n_particles, 0.4, dimensions=3, lattice=kind))
+    assert (lattice.kind, lattice.counts) == (kind, counts)
+    assert lattice.box == pytest.approx((lattice.box[0],) * 3)
+    cell = lattice.box[0] / counts[0]
+    assert lattice.spacing == pytest.approx(cell if kind == "cubic" else cell / math.sqrt(2))
+
+
+def test_dense_spheres_start_as_the_crystal():
+    assert check_start(Scene(500, 0.7, dimensions=3)).kind == "fcc"
+    assert check_start(Scene(1000, 0.55, dimensions=3)).kind == "fcc"
+    assert check_start(Scene(1000, 0.15, dimensions=3)).kind == "cubic"
+
+
+@pytest.mark.parametrize("aspect_ratio", [0.25, 4.0])
+def test_elongated_boxes_of_spheres(aspect_ratio):
+    x, y, z = check_start(Scene(1000, 0.3, dimensions=3, aspect_ratio=aspect_ratio)).box
+    assert x / y == pytest.approx(aspect_ratio)
+    assert z == pytest.approx(math.sqrt(x * y))
+
+
+def test_spheres_that_do_not_fit_are_refused():
+    with pytest.raises(SceneError, match=r"area_fraction = 0\.73: 33 spheres fit on a lattice up to 0\."):
+        check_lattice(Scene(33, 0.73, dimensions=3))
+    with pytest.raises(SceneError, match=r"n_particles = 501: .*the nearest that fits is 500;"):
+        check_lattice(Scene(501, 0.6, dimensions=3, lattice="fcc"))
+    with pytest.raises(SceneError, match=r"a cubic lattice holds less than 0\.5236"):
+        check_lattice(Scene(1000, 0.53, dimensions=3, lattice="cubic"))
+
+
 @pytest.mark.parametrize("n_particles", [5, 7, 42, 1435])
 @pytest.mark.parametrize("area_fraction", [0.88, 0.9])
 def test_a_refusal_names_the_largest_area_fraction(n_particles, area_fraction):
@@ -136,18 +186,25 @@ def test_empty_sites_lie_anywhere():
     assert len(places) == 5
 
 
+@pytest.mark.parametrize("dimensions", [1, 2, 3])
 @pytest.mark.parametrize("n_particles", [2, 3, 42, 5740])
-def test_velocities(n_particles):
-    scene = Scene(n_particles=n_particles, velocity_half_width=0.3, area_fraction=0.1)
+def test_velocities(n_particles, dimensions):
+    scene = Scene(n_particles=n_particles, velocity_half_width=0.3, area_fraction=0.1, dimensions=dimensions)
     velocity = start_velocities(scene, RNG(1))
     energy = 0.5 * np.sum(velocity**2)
-    assert energy == pytest.approx(n_particles * 0.3**2 / 3, rel=1e-14)
+    assert energy == pytest.approx(n_particles * dimensions * 0.3**2 / 6, rel=1e-14)
+    assert energy == pytest.approx(n_particles * scene.energy_per_mass, rel=1e-14)
     np.testing.assert_allclose(velocity.sum(axis=0), 0, atol=1e-13 * n_particles)
 
 
 def test_velocity_components_are_uniform():
     components = np.sort(start_velocities(Scene(n_particles=20_000), RNG(2)), axis=0) / 0.5
     np.testing.assert_allclose(components, np.linspace(-1, 1, 20_000)[:, None].repeat(2, axis=1), atol=0.02)
+
+
+def test_velocities_of_beads_are_normal():
+    velocity = start_velocities(Scene(20_000, 0.5, dimensions=1), RNG(2))[:, 0]
+    assert stats.kstest(velocity / velocity.std(), "norm").pvalue > 1e-3
 
 
 def test_a_single_disk_keeps_its_momentum():

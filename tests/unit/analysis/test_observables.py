@@ -18,6 +18,11 @@ def test_anisotropy():
     assert observables.anisotropy(VELOCITY[:, ::-1]) == pytest.approx(-3 / 7)
 
 
+def test_anisotropy_on_a_line_and_in_space():
+    assert observables.anisotropy(np.array([[1.0], [-2.0]])) == 0
+    assert observables.anisotropy(np.array([[1.0, 2.0, 0.0], [-1.0, 0.0, 1.0]])) == pytest.approx((4 - 1) / 7)
+
+
 def test_kurtosis_of_known_distributions():
     rng = np.random.default_rng(3)
     maxwellian, uniform = rng.normal(size=200_000), rng.uniform(-1, 1, 200_000)

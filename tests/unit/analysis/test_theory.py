@@ -209,3 +209,29 @@ def test_columns_on_a_wall():
     n = np.array([2, 5, 20, 1000])
     loss = 1 - theory.cushion_restitution(n)
     np.testing.assert_allclose(n * loss, np.log(4 / loss), rtol=1e-13)
+
+
+@pytest.mark.parametrize(
+    ("dimensions", "rate"), [(1, 2 * 0.3 / 0.7), (2, 8 * 0.3 * 0.86875 / 0.49), (3, 24 * 0.3 * 0.85 / 0.343)]
+)
+def test_enskog_rate_in_all_dimensions(dimensions, rate):
+    """D 2^D nu g / d sqrt(kT / (pi m)), kT/m = 2 E / (D M)."""
+    expected = rate / 1e-3 * np.sqrt(2 * 0.1 / dimensions / np.pi)
+    assert theory.enskog_rate(0.3, 0.1, 1e-3, dimensions) == pytest.approx(expected)
+
+
+def test_pressures_of_beads_and_spheres():
+    assert theory.reduced_pressure(0.3, dimensions=1) == pytest.approx(1 / 0.7)
+    nu = np.array([0.1, 0.3, 0.45])
+    np.testing.assert_allclose(theory.reduced_pressure(nu, dimensions=3), (1 + nu + nu**2 - nu**3) / (1 - nu) ** 3)
+    np.testing.assert_allclose(theory.kolafa_pressure(nu), theory.reduced_pressure(nu, dimensions=3), rtol=4e-3)
+    assert (theory.kolafa_pressure(1e-4) - 1) / 1e-4 == pytest.approx(4, rel=1e-3)
+
+
+def test_cooling_in_other_dimensions():
+    assert theory.homogeneous_cooling(30.0, 0.5, 3) == pytest.approx((1 + 0.75 * 30 / 6) ** -2)
+    for dimensions in (1, 3):
+        collisions = theory.collisions_until(30.0, 0.5, dimensions)
+        energy = theory.energy_after_collisions(collisions, 0.5, dimensions)
+        assert energy == pytest.approx(float(theory.homogeneous_cooling(30.0, 0.5, dimensions)))
+    assert [theory.energy_of_elastic_particles(d) for d in (1, 2, 3)] == [3 / 2, 5 / 4, 7 / 6]

@@ -27,6 +27,8 @@ SCENES = {
     "bidisperse": Scene(64, 0.3, restitution=0.8, contact_time=1e-5, sizes="bidisperse", size_ratio=1.5),
     "heated": Scene(64, 0.25, restitution=0.9, contact_time=0.0, heating=5.0),
     "two": Scene(2, 0.3, restitution=1.0, contact_time=0.0),
+    "spheres": Scene(64, 0.3, restitution=0.8, contact_time=1e-5, dimensions=3),
+    "beads": Scene(64, 0.3, restitution=0.95, contact_time=1e-5, dimensions=1),
 }
 COLLISIONS = 400
 
@@ -61,7 +63,8 @@ def test_both_modes_agree_bit_for_bit(plain, name):
         assert set(other) == set(compiled)
         for table, rows in compiled.items():
             if table != "near":  # scratch
-                assert rows.tobytes() == other[table].tobytes(), table
+                for field in rows.dtype.names:  # the rest of a row, up to its cache line, means nothing
+                    assert rows[field].tobytes() == other[table][field].tobytes(), (table, field)
 
 
 def test_other_tests_pass_in_plain_python_without_a_warning():
