@@ -46,7 +46,7 @@ def _energy(data: xr.Dataset) -> Iterator[str]:
 
 def _momentum(data: xr.Dataset) -> Iterator[str]:
     if "velocity" in data:
-        mass = data["particle_mass"] if "particle_mass" in data else 1.0
+        mass = data.get("particle_mass", 1.0)
         momentum = abs((mass * data["velocity"]).sum("particle")) / _parameter(data, "n_particles")
         limit = ROUNDING * _parameter(data, "velocity_half_width")
         yield from _finding("velocity", "has a mean that is not zero", momentum - limit)

@@ -73,7 +73,8 @@ def equilibrate(
 
     Returns:
         Dataset with position (m), velocity (m/s), last_collision_time and last_collision_interval (s) of each particle,
-        particle_diameter (m) and particle_mass (by the mean one) where they differ, and in its attributes the box, the branch ("fluid" or "crystal") and what `judge` found.
+        particle_diameter (m) and particle_mass (by the mean one) where they differ, and in its attributes the box, the branch
+        ("fluid" or "crystal") and what `judge` found.
 
     Raises:
         SceneError: the disks do not fit.

@@ -27,7 +27,9 @@ VELOCITY_BITS = 10
 
 
 def write_positions(dataset: xr.Dataset, path: str | Path) -> None:
-    """Write `trajectory`, its motion, diameters where they differ, coordinates and the global attributes, 4 bytes a number, whole or not at all.
+    """Write `trajectory`, its motion, diameters where they differ, coordinates and the global attributes, whole or not at all.
+
+    A position takes 4 bytes a number.
 
     A position is rounded down to a multiple of L / (2^32 - 1), L the longest side of the box; CF readers find that as
     `scale_factor`. It is packed time step by time step, so that no second copy is in memory.

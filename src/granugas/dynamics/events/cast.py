@@ -17,7 +17,10 @@ OTHERWISE = {"force": Straight, "walls": Periodic, "sizes": Equal, "surface": Sm
 
 
 def effects_of(scene: Scene, state: State) -> dict[str, Any]:
-    """The effect of each place (state.EFFECTS, and `drive`, of which kernels know nothing); `state` has what they know of each particle."""
+    """The effect of each place: state.EFFECTS, and `drive`, of which kernels know nothing.
+
+    `state` has what they know of each particle.
+    """
     files = {place: import_module(f"granugas.dynamics.events.effects.{name}") for place, name in called_by(scene).items()}
     material = files.pop("material").effect_of(scene, state)
     effects = {place: effect() for place, effect in OTHERWISE.items()}
