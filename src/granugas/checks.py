@@ -5,6 +5,8 @@ from collections.abc import Iterator
 import numpy as np
 import xarray as xr
 
+from granugas.scene import DEFAULTS
+
 ROUNDING = 1e-12
 SHARES = ("elastic_collision_fraction", "elastic_particle_fraction", "elastic_energy_fraction")
 COUNTS = ("collisions_per_particle", "elastic_collisions_per_particle")
@@ -37,10 +39,10 @@ def _energy(data: xr.Dataset) -> Iterator[str]:
     shares = sum(data[name].fillna(0) for name in ALONG if name in data)
     yield from _finding("kinetic_energy", "is not the sum of its shares", abs(energy - shares) - ROUNDING)
     rotation = data["rotational_energy"].fillna(0) if "rotational_energy" in data else 0.0
-    isolated = _parameter(data, "heating", 0.0) == 0
+    isolated = (_parameter(data, "heating") == 0) & (_parameter(data, "gravity") == 0) & (_parameter(data, "floor") == "still")
     yield from _finding("kinetic_energy", "rises", (energy + rotation).diff("time").where(isolated) - ROUNDING * 10)
-    elastic = isolated & (_parameter(data, "restitution") == 1) & (rotation == 0)
-    lost = abs(energy - 1).where(elastic) - 1e-10
+    elastic = (_parameter(data, "restitution") == 1) & (_parameter(data, "wall_restitution") == 1) & (rotation == 0)
+    lost = abs(energy - 1).where(isolated & elastic) - 1e-10
     yield from _finding("kinetic_energy", "is not conserved at r = 1", lost)
 
 
@@ -49,7 +51,8 @@ def _momentum(data: xr.Dataset) -> Iterator[str]:
         mass = data.get("particle_mass", 1.0)
         momentum = abs((mass * data["velocity"]).sum("particle")) / _parameter(data, "n_particles")
         limit = ROUNDING * _parameter(data, "velocity_half_width")
-        yield from _finding("velocity", "has a mean that is not zero", momentum - limit)
+        free = _parameter(data, "boundary") == "periodic"
+        yield from _finding("velocity", "has a mean that is not zero", (momentum - limit).where(free))
 
 
 def _counted(data: xr.Dataset) -> Iterator[str]:
@@ -89,13 +92,13 @@ def _times(data: xr.Dataset) -> xr.DataArray:
 
 
 def _dimensions(data: xr.Dataset) -> xr.DataArray:
-    """Of space: 2 where a dataset does not say."""
-    return _parameter(data, "dimensions", 2)
+    """Of space."""
+    return _parameter(data, "dimensions")
 
 
-def _parameter(data: xr.Dataset, key: str, otherwise: float | None = None) -> xr.DataArray:
-    """A grid key: a coordinate where the study varies it, else an attribute, if it has one."""
-    return data[key] if key in data.variables else xr.DataArray(data.attrs.get(key, otherwise))
+def _parameter(data: xr.Dataset, key: str) -> xr.DataArray:
+    """A grid key: a coordinate where the study varies it, else an attribute, or what it is where no scene names it."""
+    return data[key] if key in data.variables else xr.DataArray(data.attrs.get(key, DEFAULTS[key]))
 
 
 def _finding(name: str, what: str, excess: xr.DataArray) -> Iterator[str]:

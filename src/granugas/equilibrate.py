@@ -15,7 +15,7 @@ from granugas.doubts import doubts_of_start, tell
 from granugas.dynamics.events.engine import Engine
 from granugas.dynamics.events.growth import growth
 from granugas.dynamics.state import State
-from granugas.initial import as_wanted, melts, random_stream, sites, start_lattice, start_velocities
+from granugas.initial import as_wanted, melts, random_stream, start_lattice, start_positions, start_velocities
 from granugas.lattices.lattice import TOUCH, Lattice
 from granugas.progress import Progress
 from granugas.scene import Scene, SceneError
@@ -32,6 +32,9 @@ SIGMAS = 4.0
 
 OF_PARTICLES = {"diameter": "particle_diameter", "mass": "particle_mass", "spin": "spin"}
 """What effects know of each particle, and the variables of a start state (or a run) that has it."""
+
+INTO_A_WALL = 1.0e-9
+"""How far a particle may reach into a wall by rounding (radii)."""
 
 MOST_ORDER = 16.0
 """Largest |sum exp(ikr)|^2 / N at the lattice's wave vectors: a fluid of disks has 1 to 5 on average, one of spheres 1 to 3,
@@ -140,7 +143,7 @@ def _shared_evenly(velocity: np.ndarray, mass: np.ndarray) -> bool:
 
 def on_lattice(scene: Scene, lattice: Lattice, rng: np.random.Generator) -> State:
     """The particles of a scene on its lattice with uniform velocities, before any collision."""
-    position, velocity = sites(lattice, scene.n_particles, rng), start_velocities(scene, rng)
+    position, velocity = start_positions(scene, lattice, rng), start_velocities(scene, rng)
     more = of_particles(scene, rng)
     if "mass" in more:
         velocity = as_wanted(velocity, scene.velocity_half_width, more["mass"])
@@ -182,6 +185,14 @@ def need_start(scene: Scene, start: Any) -> None:
     volume, unit = math.prod(box_of(start.attrs)), f"m^{scene.dimensions}"
     if len(box_of(start.attrs)) != scene.dimensions or not math.isclose(volume, scene.volume, rel_tol=1e-9):
         raise ValueError(f"state = a box of {volume:g} {unit}: allowed is one of {scene.volume:g} {unit}, as the scene has")
+    _need_room_at_walls(scene, start)
+
+
+def _need_room_at_walls(scene: Scene, start: xr.Dataset) -> None:
+    place, box = start["position"].values, np.array(box_of(start.attrs))
+    room = np.minimum(place, box - place).min(axis=0) / (scene.diameter / 2)
+    if np.any(room[np.array(scene.walled)] < 1 - INTO_A_WALL):
+        raise ValueError("state = particles that reach into a wall: allowed is a start state of the same boundary")
 
 
 def state_of(start: xr.Dataset, *seed: int) -> State:

@@ -48,6 +48,7 @@ def start_lattice(scene: Scene) -> Lattice:
         allowed = f"allowed are so many that the box is {FEWEST_LARGEST} of the largest diameters wide"
         raise SceneError("n_particles", scene.n_particles, allowed)
     if grows or lattice.holds(scene):
+        _refuse_what_walls_squeeze(scene, lattice)
         return lattice
     if scene.lattice != "auto":
         densest = kinds.DENSEST[scene.lattice] * relative
@@ -72,6 +73,43 @@ def sites(lattice: Lattice, n: int, rng: np.random.Generator) -> np.ndarray:
     """Positions (n, D) of n particles on the lattice, in m; sites that stay empty are drawn at random."""
     taken = np.sort(rng.permutation(lattice.n_sites)[:n]) if n < lattice.n_sites else np.arange(n)
     return IN_DIMENSIONS[len(lattice.box)].site(lattice, taken)
+
+
+def start_positions(scene: Scene, lattice: Lattice, rng: np.random.Generator) -> np.ndarray:
+    """Positions (N, D) at the start, in m: sites of the lattice, spread out from wall to wall along axes that end in walls."""
+    position, near = sites(lattice, scene.n_particles, rng), _widest(scene, lattice) / 2
+    for axis, (first, factor) in _spread(scene, lattice).items():
+        position[:, axis] = near + (position[:, axis] - first) * factor if factor > 0 else lattice.box[axis] / 2
+    return position
+
+
+def _widest(scene: Scene, lattice: Lattice) -> float:
+    """The largest diameter of particles on the lattice (m); those that are larger than it allows are still to grow."""
+    return min(largest(scene) * scene.diameter, lattice.spacing / TOUCH)
+
+
+def _spread(scene: Scene, lattice: Lattice) -> dict[int, tuple[float, float]]:
+    """For each axis that ends in walls, where the lattice begins (m), and the factor that takes it from wall to wall.
+
+    The factor is 0 for a single row, which has its place in the middle.
+    """
+    if not any(scene.walled):
+        return {}
+    everywhere, widest = sites(lattice, lattice.n_sites, np.random.default_rng(0)), _widest(scene, lattice)
+    low, high = everywhere.min(axis=0), everywhere.max(axis=0)
+    return {
+        axis: (low[axis], (side - widest) / (high[axis] - low[axis]) if high[axis] > low[axis] else 0.0)
+        for axis, side in enumerate(lattice.box)
+        if scene.walled[axis]
+    }
+
+
+def _refuse_what_walls_squeeze(scene: Scene, lattice: Lattice) -> None:
+    """A lattice of rows that are nearer than a diameter has no room for it between walls."""
+    squeezed = min([1.0, *(factor for _, factor in _spread(scene, lattice).values() if factor > 0)])
+    if lattice.spacing * squeezed < _widest(scene, lattice):
+        allowed = f"{scene.n_particles} particles do not fit between walls on a {lattice.kind} lattice: allowed is less"
+        raise SceneError("area_fraction", scene.area_fraction, allowed)
 
 
 def start_velocities(scene: Scene, rng: np.random.Generator) -> np.ndarray:

@@ -131,6 +131,9 @@ class Record:
         if dt > 0:
             gone, gone_time = tally.loss + tally.stored, tally.loss_time + tally.stored_time
             energy = kinetic_energy(state.velocity, self._mass).sum() + gone - gone_time / dt  # mean over the interval
+            if self._scene.fed:  # as if what was gained came evenly over the interval
+                before = self._series["kinetic_energy"][k - 1] * self._energy
+                energy -= (kinetic_energy(state.velocity, self._mass).sum() + gone - before) / 2
             stress = -tally.stress / (energy * dt)  # A Eq. 15, times V/E
             self._series["collision_rate"][k] = 2 * tally.collisions / (n * dt)
             self._series["reduced_pressure"][k] = 1 + np.trace(stress) / 2

@@ -4,12 +4,11 @@ import hashlib
 import json
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import Any
 
-from granugas.scene import SCENE_KEYS, START_KEYS, Scene
+from granugas.scene import DEFAULTS, SCENE_KEYS, START_KEYS, Scene
 
-DEFAULTS = {field.name: field.default for field in fields(Scene)}
 GRID_KEYS = tuple(SCENE_KEYS[: SCENE_KEYS.index("lattice") + 1])
 """Keys that every scene has; the others, effects, enter an address only where they are not the default."""
 

@@ -101,6 +101,17 @@ def _contact_time(default: float) -> Any:
     return _key(default, check)
 
 
+def _boundary(default: str) -> Any:
+    """The key of what lies at the edge of the box: a word for all axes, or one for each."""
+
+    def check(key: str, value: Any) -> None:
+        if not isinstance(value, str) or not value.split() or not set(value.split()) <= {"periodic", "wall"}:
+            allowed = "allowed are periodic, wall, or one of the two for each axis of space, separated by a blank"
+            raise SceneError(key, value, allowed)
+
+    return _key(default, check, start=True)
+
+
 # --- the scene ------------------------------------------------------------------------------------------------------------
 
 
@@ -118,7 +129,7 @@ class Scene:
         dynamics: the method that moves the particles.
         lattice: start lattice; "auto" holds any N.
         dimensions: D of space: beads on a ring, disks in a plane, spheres.
-        boundary: of the box.
+        boundary: of the box: "periodic", "wall", or one of them for each axis ("periodic wall": walls along y alone).
         aspect_ratio: Lx / Ly of the box, in 3D with Lz = sqrt(Lx Ly); an explicit lattice takes the nearest that it can.
         tangential_restitution: beta in [-1, 1], by which a contact reverses the surfaces' tangential velocity; -1: smooth.
         friction: mu; a contact passes on no more tangential momentum than mu times the normal one; infinite: no such limit.
@@ -127,6 +138,13 @@ class Scene:
         size_share: of bidisperse particles, how many of all are large.
         size_spread: by the mean diameter: half width of uniform, standard deviation of log-normal diameters.
         heating: energy by mass and time that random kicks put in (m^2/s^3); 0: none.
+        wall_restitution: r of a particle at a wall, in [0, 1].
+        wall_contact_time: t_c of A Eq. 4 at a wall, in s.
+        gravity: g in m/s^2, down along the last axis.
+        floor: motion of the lower wall along the last axis: none, A - A cos(2 pi f t), or f times a second a steady rise from
+            0 to 2 A and a drop in no time.
+        floor_amplitude: A of its motion in m.
+        floor_frequency: f of its motion in 1/s.
 
     Raises:
         SceneError: a value outside of what is allowed.
@@ -141,7 +159,7 @@ class Scene:
     dynamics: str = choice("events")
     lattice: str = choice(*LATTICES, start=True)
     dimensions: int = choice(2, 1, 3, start=True)
-    boundary: str = choice("periodic", start=True)
+    boundary: str = _boundary("periodic")
     aspect_ratio: float = number(1.0, above=0.0, within=MOST_SLENDER, start=True)
     tangential_restitution: float = number(-1.0, at_least=-1.0, at_most=1.0)
     friction: float = number(math.inf, at_least=0.0, endless=True)
@@ -150,6 +168,12 @@ class Scene:
     size_share: float = number(0.5, at_least=0.0, at_most=1.0, start=True)
     size_spread: float = number(0.2, at_least=0.0, at_most=0.9, start=True)
     heating: float = number(0.0, at_least=0.0, at_most=EXTREME, unit="m^2/s^3")
+    wall_restitution: float = number(1.0, at_least=0.0, at_most=1.0)
+    wall_contact_time: float = number(0.0, at_least=0.0, unit="s")
+    gravity: float = number(0.0, at_least=0.0, unit="m/s^2")
+    floor: str = choice("still", "harmonic", "sawtooth")
+    floor_amplitude: float = number(0.0, at_least=0.0, unit="m")
+    floor_frequency: float = number(0.0, at_least=0.0, unit="1/s")
 
     def __post_init__(self) -> None:
         if isinstance(self.contact_time, (tuple, list)):
@@ -174,11 +198,49 @@ class Scene:
                 allowed = "a list (not empty) is allowed at restitution = 1 only, and for smooth surfaces"
                 raise SceneError("contact_time", self.contact_time, allowed)
             object.__setattr__(self, "contact_time", tuple(map(float, self.contact_time)))
-
         if self.heating > 0 and self.n_particles == 1:
             raise SceneError(
                 "heating", self.heating, "allowed at n_particles = 1 is 0, as kicks leave the centre of mass alone"
             )
+        self._refuse_walls_that_are_none()
+
+    def _refuse_walls_that_are_none(self) -> None:
+        words = self.boundary.split()
+        if len(words) not in (1, self.dimensions):
+            allowed = f"allowed is one word for all axes, or one for each of the {self.dimensions}"
+            raise SceneError("boundary", self.boundary, allowed)
+        object.__setattr__(self, "boundary", words[0] if len(set(words)) == 1 else " ".join(words))
+        wall, floor, moving = any(self.walled), self.walled[-1], self.floor != "still"
+        needs = {"wall_restitution": wall, "wall_contact_time": wall, "gravity": floor, "floor": floor}
+        for key, there in needs.items():
+            value = getattr(self, key)
+            if not there and value != DEFAULTS[key]:
+                where = "along the last axis" if key in ("gravity", "floor") else "of the box"
+                raise SceneError(key, value, f"allowed is {DEFAULTS[key]} without a wall {where} (boundary = {self.boundary})")
+        for key in ("floor_amplitude", "floor_frequency"):
+            value = getattr(self, key)
+            if moving != (value > 0):
+                raise SceneError(key, value, "allowed is a number > 0 where the floor moves (floor), and 0 where it does not")
+        if self.wall_restitution == 0 and (self.gravity > 0 or moving):
+            allowed = (
+                "allowed is a number > 0 with gravity or a floor in motion: a particle that sticks to it has no next collision"
+            )
+            raise SceneError("wall_restitution", self.wall_restitution, allowed)
+
+    @property
+    def walled(self) -> tuple[bool, ...]:
+        """For each axis of space, whether the box ends there in walls."""
+        words = self.boundary.split()
+        return tuple(word == "wall" for word in (words * self.dimensions if len(words) == 1 else words))
+
+    @property
+    def fed(self) -> bool:
+        """Whether particles gain kinetic energy between their collisions or from the floor."""
+        return self.gravity > 0 or self.floor != "still"
+
+    def speed_gained_2(self, height: float) -> float:
+        """What a fall through a height (m) and the motion of the floor may add to the square of a velocity (m^2/s^2)."""
+        return 2 * self.gravity * height + (2 * math.pi * self.floor_frequency * self.floor_amplitude) ** 2
 
     @property
     def volume(self) -> float:
@@ -221,6 +283,9 @@ class Scene:
 
 
 SCENE_KEYS = tuple(key.name for key in fields(Scene))
+
+DEFAULTS = {key.name: key.default for key in fields(Scene)}
+"""What keys hold that nobody names."""
 
 CHECKS = {key.name: key.metadata["check"] for key in fields(Scene)}
 

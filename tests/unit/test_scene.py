@@ -44,6 +44,8 @@ def test_the_edges_are_allowed():
     Scene(contact_time=0, n_particles=10_000_000)
 
 
+SHAKEN = {"boundary": "periodic wall", "floor": "harmonic", "floor_amplitude": 1e-4, "floor_frequency": 50.0}
+
 WRONG = [
     ("n_particles", 0, "an integer from 1 to 10000000"),
     ("n_particles", 10_000_001, "an integer from 1 to 10000000"),
@@ -78,13 +80,27 @@ WRONG = [
     ("dimensions", 4, "2, 1, 3"),
     ("dimensions", 0, "2, 1, 3"),
     ("dimensions", "2", "2"),
-    ("boundary", "wall", "periodic"),
     ("sizes", "gamma", "equal, bidisperse, uniform, log_normal"),
     ("size_ratio", 0.5, "a number >= 1 and <= 10"),
     ("size_share", 1.1, "a number >= 0 and <= 1"),
     ("size_spread", 0.95, "a number >= 0 and <= 0.9"),
     ("heating", -1.0, "a number >= 0"),
     ("heating", math.inf, "a number >= 0"),
+    ("boundary", "open", "periodic, wall"),
+    ("boundary", "", "periodic, wall"),
+    ("boundary", True, "periodic, wall"),
+    ("boundary", "wall wall periodic", "one for each of the 2"),
+    ("wall_restitution", 1.1, "a number >= 0 and <= 1"),
+    ("wall_restitution", 0.9, "without a wall of the box (boundary = periodic)"),
+    ("wall_contact_time", -1.0, "a number >= 0 s"),
+    ("wall_contact_time", 1e-5, "without a wall of the box (boundary = periodic)"),
+    ("gravity", -9.81, "a number >= 0 m/s^2"),
+    ("gravity", 9.81, "without a wall along the last axis (boundary = periodic)"),
+    ("floor", "shaken", "still, harmonic, sawtooth"),
+    ("floor", "harmonic", "without a wall along the last axis"),
+    ("floor_amplitude", 1e-3, "where the floor moves (floor), and 0 where it does not"),
+    ("floor_frequency", 50.0, "where the floor moves (floor), and 0 where it does not"),
+    ("floor_frequency", math.nan, "a number >= 0 1/s"),
 ]
 
 
@@ -127,6 +143,37 @@ def test_surfaces_rub_unless_they_are_smooth_or_without_friction():
     assert Scene(friction=math.inf) == Scene()
     with pytest.raises(SceneError, match=r"contact_time = \(1e-05, 0\.0001\): .* and for smooth surfaces"):
         Scene(restitution=1.0, contact_time=(1e-5, 1e-4), tangential_restitution=0.5)
+
+
+@pytest.mark.parametrize(
+    ("key", "values"),
+    [
+        ("gravity", {"gravity": 9.81, "boundary": "wall periodic"}),
+        ("wall_restitution", {"gravity": 9.81, "boundary": "wall", "wall_restitution": 0}),
+        ("wall_restitution", {**SHAKEN, "wall_restitution": 0}),
+        ("floor_amplitude", {**SHAKEN, "floor_amplitude": 0.0}),
+        ("floor_frequency", {**SHAKEN, "floor_frequency": 0.0}),
+    ],
+)
+def test_walls_and_floors_that_make_no_sense_together(key, values):
+    with pytest.raises(SceneError) as raised:
+        Scene(**values)
+    assert raised.value.key == key
+
+
+@pytest.mark.parametrize(
+    ("boundary", "walled", "kept"),
+    [
+        ("periodic", (False, False), "periodic"),
+        ("wall", (True, True), "wall"),
+        ("periodic wall", (False, True), "periodic wall"),
+        ("wall  wall", (True, True), "wall"),
+    ],
+)
+def test_walls_stand_where_the_boundary_says(boundary, walled, kept):
+    scene = Scene(boundary=boundary)
+    assert scene.walled == walled
+    assert scene.boundary == kept
 
 
 @pytest.mark.parametrize("times", [(), (1e-5, -1.0), (1e-5, math.nan)])

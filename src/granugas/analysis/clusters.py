@@ -1,8 +1,9 @@
 """Clusters by distance (B section 5): of one configuration, and through a run."""
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -110,7 +111,7 @@ def clusters_of_run(run: xr.Dataset, distance_factors: Sequence[float] = PAPER_F
     if frames.ndim != 3 or time not in ("time", "snapshot"):
         raise ValueError(f"{name} has the dimensions {frames.dims}: select one run of them first")
     diameter = run["particle_diameter"].values if "particle_diameter" in run else run.attrs["diameter"]
-    box = [run.attrs[f"box_{axis}"] for axis in frames.axis.values]
+    box = _periodic_box(run.attrs, frames.axis.values)
     arrays = (frames.isel({time: index}).values for index in range(frames.sizes[time]))
     found = clusters_of_frames(arrays, box, diameter, distance_factors).rename(time=time)
     coordinates = {key: value for key, value in frames.coords.items() if set(value.dims) <= {time}}
@@ -217,6 +218,13 @@ def _positions(positions: ArrayLike) -> NDArray[np.float64]:
     if array.ndim != 2 or array.shape[1] not in (1, 2, 3) or not len(array):
         raise ValueError(f"positions of shape {array.shape}: allowed is (n, dim) with n >= 1 and dim = 1, 2 or 3")
     return array
+
+
+def _periodic_box(run: Mapping[str, Any], axes: Sequence[str]) -> list[float]:
+    """The sides of the box of a run, with its attributes; infinite between walls, across which nothing is near."""
+    words = str(run.get("boundary", "periodic")).split()
+    edges = words * len(axes) if len(words) == 1 else words
+    return [math.inf if edge == "wall" else float(run[f"box_{axis}"]) for axis, edge in zip(axes, edges, strict=True)]
 
 
 def _box(box: ArrayLike, dim: int) -> NDArray[np.float64]:

@@ -54,6 +54,11 @@ VARIABLES = {
     "size_share": Variable("1", "share of large particles in the number of all, bidisperse particles"),
     "size_spread": Variable("1", "half width (uniform) or standard deviation (log-normal) of the diameters by their mean"),
     "heating": Variable("m2 s-3", "energy by mass and time that random kicks put in"),
+    "wall_restitution": Variable("1", "coefficient of restitution at the walls", "r", "A Eq. 3"),
+    "wall_contact_time": Variable("s", "contact duration of the TC model at the walls", "t_c", "A Eq. 4"),
+    "floor": Variable(None, "motion of the floor"),
+    "floor_amplitude": Variable("m", "amplitude of the motion of the floor", "A"),
+    "floor_frequency": Variable("s-1", "frequency of the motion of the floor", "f"),
     # its start state
     "box_x": Variable("m", "side of the box along x", "L_x"),
     "box_y": Variable("m", "side of the box along y", "L_y"),
@@ -132,6 +137,15 @@ VARIABLES = {
         "T_l / T_s",
     ),
     "heating_power": Variable("m2 s-3", f"energy by mass and time that random kicks put in, {_INTERVAL}"),
+    # where there are walls, gravity, or a floor in motion
+    "wall_pressure": Variable("1", f"reduced pressure on the walls {_INTERVAL}", "P V / (N k T)", "A Eq. 16"),
+    "wall_collisions_per_particle": Variable("1", "collisions of a particle with walls since t = 0"),
+    "potential_energy": Variable(
+        "1", "potential energy by the initial kinetic energy, 0 for particles on the floor", "E_p/E(0)", "A section 4.2.1"
+    ),
+    "floor_force": Variable("1", f"momentum that the floor takes up in unit time, by the weight, {_INTERVAL}", "f / (N m g)"),
+    "floor_energy": Variable("1", "energy that the floor has given to the particles since t = 0, by E(0)"),
+    "dissipated_energy": Variable("1", "energy that has been dissipated since t = 0, by E(0)"),
     # clusters
     "cluster_count": Variable("1", "number of clusters, single particles included", "I_c", "B Eq. 6"),
     "mean_cluster_size": Variable("1", "mean number of particles in a cluster", "<M> = N/I_c", "B Eq. 7"),

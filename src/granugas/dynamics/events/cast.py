@@ -3,7 +3,7 @@
 from importlib import import_module
 from typing import Any
 
-from granugas.dynamics.events.boundary import Periodic
+from granugas.dynamics.events.boundary import Periodic, Still
 from granugas.dynamics.events.collisions import Nothing, Smooth
 from granugas.dynamics.events.driving import Undriven
 from granugas.dynamics.events.effects import called_by
@@ -12,7 +12,15 @@ from granugas.dynamics.events.sizes import Equal
 from granugas.dynamics.state import State
 from granugas.scene import Scene
 
-OTHERWISE = {"force": Straight, "walls": Periodic, "sizes": Equal, "surface": Smooth, "after": Nothing, "drive": Undriven}
+OTHERWISE = {
+    "force": Straight,
+    "walls": Periodic,
+    "floor": Still,
+    "sizes": Equal,
+    "surface": Smooth,
+    "after": Nothing,
+    "drive": Undriven,
+}
 """The effect of a place that a scene does not name."""
 
 

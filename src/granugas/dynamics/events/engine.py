@@ -8,6 +8,7 @@ import numpy as np
 from granugas.dynamics.events import loop
 from granugas.dynamics.events import state as layout
 from granugas.dynamics.events.cast import effects_of
+from granugas.dynamics.events.flight import hastened, moved
 from granugas.dynamics.events.memory import Record, Table
 from granugas.dynamics.events.tables import tables_of
 from granugas.dynamics.state import State
@@ -50,7 +51,8 @@ class Engine:
         self.scene = scene
         self.box = state.box
         self.effects = effects_of(scene, state) | {place: effect for place, effect in instead.items() if effect is not None}
-        tables = tables_of(state, scene.diameter, largest=self.effects["sizes"].largest)
+        largest, gained = self.effects["sizes"].largest, scene.speed_gained_2(state.box[-1])
+        tables = tables_of(state, scene.diameter, scene.walled, largest, gained)
         self.arrays = tables | {name: rows for place, effect in self.effects.items() for name, rows in _rows_of(place, effect)}
         self._gas = layout.bundle(tables, self.effects)
         loop.start(self._gas)
@@ -88,8 +90,8 @@ class Engine:
 
     @property
     def cells(self) -> tuple[int, ...]:
-        """Cells along each axis."""
-        return tuple(int(count) for count in self._gas.grid.cells)
+        """Cells along each axis, without the one between two walls in which nobody ever is."""
+        return tuple(int(count) - wall for count, wall in zip(self._gas.grid.cells, self.scene.walled, strict=True))
 
     @property
     def bytes_per_particle(self) -> float:
@@ -120,9 +122,10 @@ class Engine:
         """Every disk at the present time."""
         disks, clocks, calendar, grid = (self.arrays[k] for k in ("disks", "clocks", "calendar", "grid"))
         d, base = self.scene.diameter, calendar["base"][0] + calendar["base_low"][0]
-        flown = (calendar["reached"][0] - disks["t"])[:, np.newaxis]
-        here = disks["x"] + disks["v"] * flown + (disks["cell"] + 0.5) * grid["width"][0]
-        position = np.mod(here * d, self.box)
+        flown, force = calendar["reached"][0] - disks["t"], self.effects["force"]
+        x, v = (tuple(disks[name].T) for name in ("x", "v"))
+        here = np.stack(moved(force, x, v, flown), axis=1) + (disks["cell"] + 0.5) * grid["width"][0]
+        position = np.where(self.scene.walled, here * d, np.mod(here * d, self.box))
         position[position >= self.box] = 0.0
         more: dict[str, np.ndarray] = {}
         for effect in self.effects.values():
@@ -131,7 +134,7 @@ class Engine:
             time=self.time,
             box=self.box,
             position=position,
-            velocity=disks["v"] * d,
+            velocity=np.stack(hastened(force, v, flown), axis=1) * d,
             last_collision_time=clocks["last"] + base,
             last_collision_interval=clocks["interval"].copy(),
             collisions=disks["collisions"].astype(np.int64),

@@ -36,6 +36,20 @@ def next_step(force, x, v, half):
     """The step, +-1 along one axis, to the cell that it enters then."""
 
 
+@generic
+def pull(force, axis):
+    """The acceleration along an axis (d/s^2)."""
+
+
+@generic
+def leaves_interval(force, axis, x, v, low, high):
+    """How long until a coordinate along an axis that is x, and changes at v, is at the end of an interval, and whether at its
+    upper one; infinite if it stays inside.
+
+    low, high: of the interval (d), x inside; outside by rounding counts as at the end.
+    """
+
+
 @inline
 def position(gas, i, time):
     """Where disk i is at `time`, from the centre of its cell (d)."""
@@ -65,6 +79,16 @@ def _not_hastened(force, v, flown):
 def _settle_straight(force, gas, i, time):
     gas.disks.x[i] = position(gas, i, time)
     gas.disks.t[i] = time
+
+
+@implements(pull, Straight)
+def _no_pull(force, axis):
+    return 0.0
+
+
+@implements(leaves_interval, Straight)
+def _leaves_interval_straight(force, axis, x, v, low, high):
+    return delay(max(high - x if v > 0.0 else x - low, 0.0), v), v > 0.0
 
 
 @implements(leaves_after, Straight)

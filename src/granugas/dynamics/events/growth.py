@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from granugas.dynamics.events.boundary import clearance
 from granugas.dynamics.events.cells import list_around
 from granugas.dynamics.events.composition import inline, kernel
 from granugas.dynamics.events.flight import position
@@ -72,8 +73,9 @@ def grow(gas, wanted):
 
 @inline
 def _room(gas, i, now):
-    """The radius with which particle i touches its nearest neighbour, or nearly so; cells are as wide as the largest pair."""
-    x, room = position(gas, i, now), math.inf
+    """The radius with which particle i touches a wall, or nearly touches its nearest neighbour; cells hold the largest pair."""
+    x = position(gas, i, now)
+    room = clearance(gas.walls, gas, i, x)
     for k in range(list_around(gas.disks.cell[i], gas)):
         j = gas.near.disk[k]
         at = minus(gas.near.at[k], x)

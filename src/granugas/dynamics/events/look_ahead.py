@@ -5,9 +5,9 @@ the one before has brought: the disks of the bin; their partners and the lists o
 cells. Nothing is computed here, and nothing depends on it. It pays where the tables outgrow the cache (engine.py decides).
 """
 
+from granugas.dynamics.events.boundary import step_ahead
 from granugas.dynamics.events.cells import index_of, list_ahead, list_around, next_cell
 from granugas.dynamics.events.composition import inline
-from granugas.dynamics.events.flight import next_step
 from granugas.dynamics.events.memory import prefetch
 from granugas.dynamics.events.state import NOBODY, SLOTS
 from granugas.dynamics.events.vectors import plus
@@ -40,7 +40,7 @@ def _fetch_cells(gas, b):
             i = gas.bins.entry[slot]
             j = disks.partner[i]
             if gas.schedule.time[i] < disks.t_coll[i]:
-                step = next_step(gas.force, disks.x[i], disks.v[i], gas.grid.half)
+                step = step_ahead(gas.walls, gas, i, disks.x[i], disks.v[i])
                 ahead = plus(disks.cell[i], step)
                 _fetch_heads(gas, ahead)
                 _fetch_heads(gas, plus(ahead, step))
@@ -68,7 +68,7 @@ def _fetch_neighbours(gas, b):
             i = gas.bins.entry[slot]
             j = disks.partner[i]
             if gas.schedule.time[i] < disks.t_coll[i]:
-                step = next_step(gas.force, disks.x[i], disks.v[i], gas.grid.half)
+                step = step_ahead(gas.walls, gas, i, disks.x[i], disks.v[i])
                 _fetch_near(gas, list_ahead(step, gas, next_cell(gas, disks.cell[i], step)))
             else:
                 _fetch_near(gas, list_around(disks.cell[i], gas))

@@ -2,12 +2,12 @@
 
 import math
 
-from granugas.dynamics.events.boundary import NO_WALL, WALL_AND_CALL, bounce
+from granugas.dynamics.events.boundary import NO_WALL, WALL_AND_CALL, bounce, step_ahead
 from granugas.dynamics.events.calendar import clear, next_event, refresh_if_full
 from granugas.dynamics.events.cells import enter_cell, leave_cell, list_ahead, list_around, next_cell
 from granugas.dynamics.events.collisions import collide, lose
 from granugas.dynamics.events.composition import ANY, generic, implements, inline, kernel
-from granugas.dynamics.events.flight import next_step, position, settle, velocity
+from granugas.dynamics.events.flight import position, settle, velocity
 from granugas.dynamics.events.predict import look_around, plan
 from granugas.dynamics.events.sizes import mass
 from granugas.dynamics.events.state import NOBODY
@@ -91,7 +91,7 @@ def _cross(gas, i, now):
     """Disk i enters the next cell, where only the cells ahead are new to it."""
     disks, grid = gas.disks, gas.grid
     x, v = position(gas, i, now), velocity(gas, i, now)
-    step = next_step(gas.force, x, v, grid.half)
+    step = step_ahead(gas.walls, gas, i, x, v)
     leave_cell(gas, i)
     disks.cell[i] = next_cell(gas, disks.cell[i], step)
     shift = times(grid.width, step)

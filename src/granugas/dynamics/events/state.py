@@ -132,6 +132,7 @@ class Gas(NamedTuple):
     watch: Any
     force: Any
     walls: Any
+    floor: Any
     sizes: Any
     surface: Any
     after: Any

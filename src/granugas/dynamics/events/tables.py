@@ -29,7 +29,9 @@ REBASE_AFTER = 100.0
 """The origin of times moves on when a disk has flown so many diameters: its place is still known to 1e-14 d."""
 
 
-def tables_of(state: State, diameter: float, walled: Sequence[bool] = (), largest: float = 1.0) -> dict[str, np.ndarray]:
+def tables_of(
+    state: State, diameter: float, walled: Sequence[bool] = (), largest: float = 1.0, gained: float = 0.0
+) -> dict[str, np.ndarray]:
     """All tables of a gas, laid out as state.layouts says.
 
     Args:
@@ -37,6 +39,7 @@ def tables_of(state: State, diameter: float, walled: Sequence[bool] = (), larges
         diameter: d in m, the unit of length of the tables.
         walled: for each axis, whether the box ends there in walls; none by default.
         largest: diameter of a particle (d).
+        gained: what a force or a wall in motion may add to the square of a velocity (m^2/s^2).
     """
     n, dimensions = state.position.shape
     rows = layout.layouts(dimensions)
@@ -50,7 +53,7 @@ def tables_of(state: State, diameter: float, walled: Sequence[bool] = (), larges
     disks["collisions"] = state.collisions
     clocks["last"] = state.last_collision_time - state.time
     clocks["interval"] = state.last_collision_interval
-    speed = math.sqrt(np.mean(np.sum(state.velocity**2, axis=1))) / diameter
+    speed = math.sqrt(np.mean(np.sum(state.velocity**2, axis=1)) + gained) / diameter
     calendar = _calendar(n, state.time, speed)
     tables = {
         "disks": disks,

@@ -24,6 +24,14 @@ def called_by(scene: Scene) -> dict[str, str]:
         called["sizes"] = "unequal"
     if scene.heating > 0:
         called["drive"] = "kicks"
+    if scene.wall_restitution < 1 and scene.wall_contact_time == 0:
+        called["watch"] = "collapse"
+    if any(scene.walled):
+        called["walls"] = "walls"
+    if scene.gravity > 0:
+        called["force"] = "gravity"
+    if scene.floor != "still":
+        called["floor"] = "vibrated_floor"
     return called
 
 

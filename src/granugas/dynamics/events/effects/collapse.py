@@ -11,8 +11,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from granugas.dynamics.events.composition import implements
-from granugas.dynamics.events.loop import witness
+from granugas.dynamics.events.composition import implements, inline
+from granugas.dynamics.events.loop import witness, witness_at_wall
 from granugas.dynamics.events.memory import Record, Table
 from granugas.dynamics.events.vectors import dot
 from granugas.dynamics.state import State
@@ -48,8 +48,18 @@ def effect_of(scene: Scene, state: State) -> CollapseWatch:
     return CollapseWatch(Table(np.zeros(UNRESOLVED, INVOLVED)), Record(np.zeros(1, COUNT)))
 
 
+@implements(witness_at_wall, CollapseWatch)
+def _collapse_at_a_wall(watch, gas, i, now, since, u_n):
+    return _unresolved(watch, gas, i, i, since, u_n)
+
+
 @implements(witness, CollapseWatch)
 def _collapse_watch(watch, gas, i, j, now, since, u_n):
+    return _unresolved(watch, gas, i, j, since, u_n)
+
+
+@inline
+def _unresolved(watch, gas, i, j, since, u_n):
     if -u_n * since >= RESOLUTION:
         return False
     k = watch.count.n

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from granugas.dynamics.events.composition import implements
-from granugas.dynamics.events.loop import witness
+from granugas.dynamics.events.loop import witness, witness_at_wall
 from granugas.dynamics.events.memory import Table
 from granugas.dynamics.state import State
 from granugas.scene import Scene
@@ -44,4 +44,11 @@ def _elastic_time(watch, gas, i, j, now, since, u_n):
     for k in range(watch.size):
         t_c = watch.times.t_c[k]
         watch.times.held[k] += min(between_i, t_c) + min(between_j, t_c)
+    return False
+
+
+@implements(witness_at_wall, ElasticTime)
+def _elastic_time_at_a_wall(watch, gas, i, now, since, u_n):
+    for k in range(watch.size):
+        watch.times.held[k] += min(since, watch.times.t_c[k])
     return False
