@@ -40,6 +40,7 @@ def _energy(data: xr.Dataset) -> Iterator[str]:
     yield from _finding("kinetic_energy", "is not the sum of its shares", abs(energy - shares) - ROUNDING)
     rotation = data["rotational_energy"].fillna(0) if "rotational_energy" in data else 0.0
     isolated = (_parameter(data, "heating") == 0) & (_parameter(data, "gravity") == 0) & (_parameter(data, "floor") == "still")
+    isolated = isolated & (_parameter(data, "kick_energy") == 0) & (_parameter(data, "internal_modes") == 0)
     yield from _finding("kinetic_energy", "rises", (energy + rotation).diff("time").where(isolated) - ROUNDING * 10)
     elastic = (_parameter(data, "restitution") == 1) & (_parameter(data, "wall_restitution") == 1) & (rotation == 0)
     lost = abs(energy - 1).where(isolated & elastic) - 1e-10

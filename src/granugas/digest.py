@@ -42,7 +42,7 @@ EVENTS = (
         f"granugas.dynamics.events.{name}"
         for name in (
             *("memory", "composition", "state", "vectors", "cells", "flight", "boundary", "sizes", "calendar", "look_ahead"),
-            *("predict", "collisions", "loop", "driving", "growth", "cast", "tables", "engine"),
+            *("predict", "collisions", "loop", "driving", "growth", "cast", "tables", "engine", "randomness"),
         )
     ),
 )

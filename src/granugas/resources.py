@@ -23,6 +23,9 @@ SNAPSHOT, WINDOW = 24, 8
 FRAME, MOTION = 8, 4
 """Bytes a particle and axis of the positions at a sampling time, and of the motion that an animation wants (and 4 once)."""
 
+MODE = 16
+"""Bytes of an internal mode of a disk."""
+
 SAMPLE, OF_CONTACT_TIME = 240, 40
 """Bytes a sample, measured: what a run writes down and where it stops; and more for each contact time."""
 
@@ -36,6 +39,7 @@ def memory_of(run: Run) -> int:
     kept = of_disks + samples * (SAMPLE + OF_CONTACT_TIME * len(run.scene.contact_times))
     copies = 2 if realizations > 1 else 1
     engine = ENGINE[axes] + UNEQUAL * (run.scene.sizes != "equal") + HEATED * (run.scene.heating > 0)
+    engine += MODE * run.scene.internal_modes
     return n * (engine + START * (1 + axes) * realizations) + kept * realizations * copies
 
 

@@ -19,6 +19,15 @@ LATTICES = ("auto", "triangular", "square", "cubic", "fcc")
 LATTICES_IN = {1: ("auto",), 2: ("auto", "triangular", "square"), 3: ("auto", "cubic", "fcc")}
 """Start lattices, and those that there are in so many dimensions."""
 
+MOST_MODES = 100
+"""Of a particle."""
+
+MOST_VISCOUS = 5 / (6 * 1.15344)
+"""A u^(1/5) = .7225, where the coefficient of restitution of viscoelastic spheres is least, 7/12 (physics: A section 3.iv)."""
+
+FASTEST = 2 * math.sqrt(3)
+"""A normal relative velocity at t = 0, by w: three times the root mean square; one of 8000 collisions is faster."""
+
 
 class SceneError(ValueError):
     """A value that a scene cannot have; says key, value and what is allowed."""
@@ -145,6 +154,17 @@ class Scene:
             0 to 2 A and a drop in no time.
         floor_amplitude: A of its motion in m.
         floor_frequency: f of its motion in 1/s.
+        material: what decides the coefficient of restitution of two particles alone; "viscoelastic" does without `restitution`.
+        viscosity: A of viscoelastic spheres in (s/m)^(1/5): r = 1 - C1 A u^(1/5) + C2 A^2 u^(2/5).
+        yield_velocity: of plastic contacts in m/s: r = `restitution` up to it, and falls as u^(-1/4) above.
+        contact_time_exponent: alpha of a contact duration that depends on the normal relative velocity, t_c (u / v_0)^(-alpha).
+        contact_velocity: v_0 in m/s, at which it is `contact_time`.
+        critical_distance: eps_c in m: collisions with a third particle nearer than that to a partner are elastic.
+        rotation_angle: in degrees; after each collision the relative velocity turns by a random angle up to it.
+        kick_velocity: in m/s; partners that part more slowly get a random energy, ...
+        kick_energy: ... in m^2/s^2 per mass of a particle, up to this.
+        internal_modes: number of oscillators in each particle that take up what `restitution` leaves, and give it back.
+        mode_damping: gamma in 1/s: their energy falls as exp(-gamma t).
 
     Raises:
         SceneError: a value outside of what is allowed.
@@ -174,6 +194,17 @@ class Scene:
     floor: str = choice("still", "harmonic", "sawtooth")
     floor_amplitude: float = number(0.0, at_least=0.0, unit="m")
     floor_frequency: float = number(0.0, at_least=0.0, unit="1/s")
+    material: str = choice("constant", "viscoelastic", "plastic")
+    viscosity: float = number(0.0, at_least=0.0, unit="(s/m)^(1/5)")
+    yield_velocity: float = number(0.0, at_least=0.0, unit="m/s")
+    contact_time_exponent: float = number(0.0, at_least=0.0, at_most=10.0)
+    contact_velocity: float = number(0.0, at_least=0.0, unit="m/s")
+    critical_distance: float = number(0.0, at_least=0.0, unit="m")
+    rotation_angle: float = number(0.0, at_least=0.0, at_most=5.0, unit="degrees")
+    kick_velocity: float = number(0.0, at_least=0.0, unit="m/s")
+    kick_energy: float = number(0.0, at_least=0.0, unit="m^2/s^2")
+    internal_modes: int = integer(0, 0, MOST_MODES)
+    mode_damping: float = number(0.0, at_least=0.0, unit="1/s")
 
     def __post_init__(self) -> None:
         if isinstance(self.contact_time, (tuple, list)):
@@ -203,6 +234,8 @@ class Scene:
                 "heating", self.heating, "allowed at n_particles = 1 is 0, as kicks leave the centre of mass alone"
             )
         self._refuse_walls_that_are_none()
+        self._refuse_materials_that_are_none()
+        self._refuse_models_that_are_none()
 
     def _refuse_walls_that_are_none(self) -> None:
         words = self.boundary.split()
@@ -226,6 +259,42 @@ class Scene:
                 "allowed is a number > 0 with gravity or a floor in motion: a particle that sticks to it has no next collision"
             )
             raise SceneError("wall_restitution", self.wall_restitution, allowed)
+
+    def _refuse_materials_that_are_none(self) -> None:
+        for key, material in (("viscosity", "viscoelastic"), ("yield_velocity", "plastic")):
+            value, named = getattr(self, key), self.material == material
+            if named != (value > 0):
+                raise SceneError(key, value, f"allowed is a number > 0 with material = {material}, and 0 without")
+        if self.material != "constant" and self.restitution == 1:
+            raise SceneError("restitution", self.restitution, f"allowed is less than 1: material = {self.material} dissipates")
+        fastest = FASTEST * self.velocity_half_width
+        if self.viscosity * fastest**0.2 > MOST_VISCOUS:
+            allowed = f"allowed is at most {MOST_VISCOUS / fastest**0.2:.4g}, where r of collisions at {fastest:g} m/s is least"
+            raise SceneError("viscosity", self.viscosity, allowed)
+
+    def _refuse_models_that_are_none(self) -> None:
+        exponent, lasts = self.contact_time_exponent, self.dissipates and any(self.contact_times)
+        if exponent and not lasts:
+            allowed = "allowed is 0 without a contact_time > 0 and a restitution < 1"
+            raise SceneError("contact_time_exponent", exponent, allowed)
+        if (self.contact_velocity > 0) != (exponent > 0):
+            allowed = "allowed is a number > 0 with a contact_time_exponent > 0, and 0 without"
+            raise SceneError("contact_velocity", self.contact_velocity, allowed)
+        if self.critical_distance > self.diameter:
+            allowed = f"allowed is at most the diameter, {self.diameter:g} m"
+            raise SceneError("critical_distance", self.critical_distance, allowed)
+        if self.rotation_angle and self.dimensions == 1:
+            raise SceneError("rotation_angle", self.rotation_angle, "allowed is 0 in one dimension, where nothing can turn")
+        if (self.kick_velocity > 0) != (self.kick_energy > 0):
+            raise SceneError("kick_energy", self.kick_energy, "allowed is a number > 0 with a kick_velocity > 0, and 0 without")
+        if self.kick_energy and self.restitution == 1:
+            raise SceneError("kick_energy", self.kick_energy, "allowed is 0 at restitution = 1, where no energy is lost")
+        if self.mode_damping and not self.internal_modes:
+            raise SceneError("mode_damping", self.mode_damping, "allowed is 0 without internal_modes")
+        longest = max(self.contact_times)
+        if self.mode_damping * longest >= 1:
+            allowed = f"allowed is less than {1 / longest:g} 1/s: modes ring longer than a contact_time of {longest:g} s"
+            raise SceneError("mode_damping", self.mode_damping, allowed)
 
     @property
     def walled(self) -> tuple[bool, ...]:

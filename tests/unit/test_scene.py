@@ -101,6 +101,19 @@ WRONG = [
     ("floor_amplitude", 1e-3, "where the floor moves (floor), and 0 where it does not"),
     ("floor_frequency", 50.0, "where the floor moves (floor), and 0 where it does not"),
     ("floor_frequency", math.nan, "a number >= 0 1/s"),
+    ("material", "rubber", "constant, viscoelastic, plastic"),
+    ("viscosity", -0.1, "a number >= 0 (s/m)^(1/5)"),
+    ("viscosity", 0.5, "a number > 0 with material = viscoelastic, and 0 without"),
+    ("yield_velocity", 0.5, "a number > 0 with material = plastic, and 0 without"),
+    ("contact_time_exponent", 11, "a number >= 0 and <= 10"),
+    ("contact_velocity", 0.1, "a number > 0 with a contact_time_exponent > 0, and 0 without"),
+    ("critical_distance", 1.1e-3, "at most the diameter, 0.001 m"),
+    ("critical_distance", -1e-6, "a number >= 0 m"),
+    ("rotation_angle", 5.1, "a number >= 0 and <= 5 degrees"),
+    ("kick_energy", 1e-3, "with a kick_velocity > 0"),
+    ("kick_velocity", -1e-3, "a number >= 0 m/s"),
+    ("internal_modes", 101, "an integer from 0 to 100"),
+    ("mode_damping", 1.0, "0 without internal_modes"),
 ]
 
 
@@ -180,6 +193,29 @@ def test_walls_stand_where_the_boundary_says(boundary, walled, kept):
 def test_a_wrong_list_of_contact_times(times):
     with pytest.raises(SceneError, match="contact_time"):
         Scene(restitution=1.0, contact_time=times)
+
+
+TOGETHER = [
+    ({"contact_time_exponent": 1.0}, "contact_velocity = 0.0: allowed is a number > 0"),
+    ({"contact_time_exponent": 1.0, "contact_velocity": 0.1, "contact_time": 0.0}, "contact_time_exponent = 1.0: allowed is 0"),
+    ({"material": "viscoelastic"}, "viscosity = 0.0: allowed is a number > 0"),
+    (
+        {"material": "viscoelastic", "viscosity": 0.65},
+        "viscosity = 0.65: allowed is at most 0.6473, where r",
+    ),
+    ({"material": "viscoelastic", "viscosity": 0.1, "restitution": 1.0}, "restitution = 1.0: allowed is less than 1"),
+    ({"material": "plastic"}, "yield_velocity = 0.0: allowed is a number > 0"),
+    ({"kick_velocity": 0.1}, "kick_energy = 0.0: allowed is a number > 0"),
+    ({"kick_velocity": 0.1, "kick_energy": 0.1, "restitution": 1.0}, "kick_energy = 0.1: allowed is 0 at restitution = 1"),
+    ({"internal_modes": 1, "mode_damping": 1e5}, "mode_damping = 100000.0: allowed is less than 100000 1/s"),
+]
+
+
+@pytest.mark.parametrize(("values", "said"), TOGETHER, ids=[said.split(":")[0] for _, said in TOGETHER])
+def test_what_does_not_go_together_is_named(values, said):
+    with pytest.raises(SceneError) as raised:
+        Scene(**values)
+    assert said in str(raised.value)
 
 
 def test_equilibration_knows_only_what_decides_the_start():

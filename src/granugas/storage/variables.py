@@ -59,6 +59,17 @@ VARIABLES = {
     "floor": Variable(None, "motion of the floor"),
     "floor_amplitude": Variable("m", "amplitude of the motion of the floor", "A"),
     "floor_frequency": Variable("s-1", "frequency of the motion of the floor", "f"),
+    "material": Variable(None, "what decides the coefficient of restitution of two particles alone", "", "A section 3"),
+    "viscosity": Variable("1", "viscosity of viscoelastic particles in (s/m)^(1/5)", "A", "A section 3"),
+    "yield_velocity": Variable("m s-1", "normal relative velocity above which contacts are plastic", "u_y", "A section 3"),
+    "contact_time_exponent": Variable("1", "exponent of a contact duration that depends on velocity", "alpha", "A section 3"),
+    "contact_velocity": Variable("m s-1", "normal relative velocity at which it is the contact time", "v_0", "A section 3"),
+    "critical_distance": Variable("m", "gap to a third particle below which collisions are elastic", "eps_c", "A section 3"),
+    "rotation_angle": Variable("degree", "largest rotation of the relative velocity after a collision", "", "A section 3"),
+    "kick_velocity": Variable("m s-1", "velocity of parting below which partners are kicked", "", "A section 3"),
+    "kick_energy": Variable("m2 s-2", "largest energy of a kick by the mass of a particle", "", "A section 3"),
+    "internal_modes": Variable("1", "number of internal modes of a particle", "n", "A section 3"),
+    "mode_damping": Variable("s-1", "rate at which the energy of internal modes falls", "gamma", "A section 3"),
     # its start state
     "box_x": Variable("m", "side of the box along x", "L_x"),
     "box_y": Variable("m", "side of the box along y", "L_y"),
@@ -119,6 +130,7 @@ VARIABLES = {
         "1", "fraction of the kinetic energy that elastic particles carry", "e_e = E_e/E", "A section 5.4"
     ),
     "reduced_pressure": Variable("1", f"reduced pressure {_INTERVAL}", "P_0 = P V/E = P V/(N k T)", "A Eq. 16"),
+    "internal_energy": Variable("1", "energy of the internal modes by the initial kinetic energy", "E_int/E(0)", "A section 3"),
     **{
         f"collisional_stress_{a}{b}": Variable(
             "1",

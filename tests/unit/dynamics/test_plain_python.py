@@ -42,6 +42,29 @@ SCENES = {
     "two": Scene(2, 0.3, restitution=1.0, contact_time=0.0),
     "spheres": Scene(64, 0.3, restitution=0.8, contact_time=1e-5, dimensions=3),
     "beads": Scene(64, 0.3, restitution=0.95, contact_time=1e-5, dimensions=1),
+    "viscoelastic, rotated, kicked": Scene(
+        64,
+        0.4,
+        contact_time=0.0,
+        material="viscoelastic",
+        viscosity=0.5,
+        critical_distance=1e-5,
+        rotation_angle=5.0,
+        kick_velocity=0.1,
+        kick_energy=1e-3,
+    ),
+    "spheres turned in space": Scene(64, 0.2, restitution=0.8, contact_time=0.0, dimensions=3, rotation_angle=5.0),
+    "plastic, with modes": Scene(
+        64,
+        0.4,
+        restitution=0.9,
+        contact_time_exponent=0.5,
+        contact_velocity=0.1,
+        material="plastic",
+        yield_velocity=0.1,
+        internal_modes=2,
+        mode_damping=100.0,
+    ),
 }
 COLLISIONS = 400
 

@@ -27,7 +27,8 @@ def test_every_variable_is_named_and_texts_have_no_units():
     assert {"seed", "events", "stop_reason", "axis", *SCENE_KEYS} <= set(VARIABLES)
     assert all(variable.long_name for variable in VARIABLES.values())
     texts = {name for name, variable in VARIABLES.items() if variable.units is None}
-    assert texts == {"dynamics", "lattice", "lattice_kind", "boundary", "branch", "axis", "stop_reason", "warnings", "change"}
+    of_scene = {"dynamics", "lattice", "boundary", "material"}
+    assert texts == {*of_scene, "lattice_kind", "branch", "axis", "stop_reason", "warnings", "change"}
 
 
 def test_describe_adds_attributes_and_leaves_the_original_alone():

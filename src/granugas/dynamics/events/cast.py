@@ -1,12 +1,13 @@
 """The effects of a scene: the files that it calls for, and what the places hold that it does not name."""
 
+from functools import reduce
 from importlib import import_module
 from typing import Any
 
 from granugas.dynamics.events.boundary import Periodic, Still
-from granugas.dynamics.events.collisions import Nothing, Smooth
+from granugas.dynamics.events.collisions import Nothing, Smooth, Then
 from granugas.dynamics.events.driving import Undriven
-from granugas.dynamics.events.effects import called_by
+from granugas.dynamics.events.effects import called_by, several
 from granugas.dynamics.events.flight import Straight
 from granugas.dynamics.events.sizes import Equal
 from granugas.dynamics.state import State
@@ -29,8 +30,14 @@ def effects_of(scene: Scene, state: State) -> dict[str, Any]:
 
     `state` has what they know of each particle.
     """
-    files = {place: import_module(f"granugas.dynamics.events.effects.{name}") for place, name in called_by(scene).items()}
-    material = files.pop("material").effect_of(scene, state)
+    files = {place: [_file(name) for name in several(names)] for place, names in called_by(scene).items()}
     effects = {place: effect() for place, effect in OTHERWISE.items()}
-    effects["rule"] = files.pop("rule").effect_of(scene, state, material)
-    return effects | {place: file.effect_of(scene, state) for place, file in files.items()}
+    (material,), rules = files.pop("material"), files.pop("rule")
+    effects["rule"] = material.effect_of(scene, state)
+    for rule in reversed(rules):
+        effects["rule"] = rule.effect_of(scene, state, effects["rule"])
+    return effects | {place: reduce(Then, [file.effect_of(scene, state) for file in held]) for place, held in files.items()}
+
+
+def _file(name: str) -> Any:
+    return import_module(f"granugas.dynamics.events.effects.{name}")

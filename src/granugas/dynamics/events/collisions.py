@@ -1,7 +1,7 @@
 """The collision: A Eqs. 2, 3, 14 and 15, with the coefficient that the rule gives (A Eq. 4)."""
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from granugas.dynamics.events.cells import separation
 from granugas.dynamics.events.composition import ANY, generic, implements, inline
@@ -16,6 +16,13 @@ class Smooth(NamedTuple):
 
 class Nothing(NamedTuple):
     """Nothing happens after a collision."""
+
+
+class Then(NamedTuple):
+    """One thing happens after a collision, and then another; each may be a Then again."""
+
+    first: Any
+    second: Any
 
 
 @generic
@@ -134,3 +141,9 @@ def _smooth(surface, gas, i, j, n, u, dv_n, since, now):
 @implements(follow_up, Nothing)
 def _nothing(after, gas, i, j, n, u_n, now):
     return
+
+
+@implements(follow_up, Then)
+def _then(after, gas, i, j, n, u_n, now):
+    follow_up(after.first, gas, i, j, n, u_n, now)
+    follow_up(after.second, gas, i, j, n, u_n, now)

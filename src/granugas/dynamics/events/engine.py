@@ -47,11 +47,15 @@ class Engine:
     """
 
     def __init__(self, scene: Scene, state: State, **instead: Any) -> None:
-        """Predict all events of a state; `rule`, `watch` ... replace effects that the scene calls for, if they are not None."""
+        """Predict all events of a state; `rule`, `watch` ... replace effects that the scene calls for, if they are not None.
+
+        An effect that looks at particles beyond those that touch says by `sight` how far (d): the cells are as much wider.
+        """
         self.scene = scene
         self.box = state.box
         self.effects = effects_of(scene, state) | {place: effect for place, effect in instead.items() if effect is not None}
-        largest, gained = self.effects["sizes"].largest, scene.speed_gained_2(state.box[-1])
+        sight = max(getattr(effect, "sight", 0.0) for effect in self._all_effects())
+        largest, gained = self.effects["sizes"].largest + sight, scene.speed_gained_2(state.box[-1])
         tables = tables_of(state, scene.diameter, scene.walled, largest, gained)
         self.arrays = tables | {name: rows for place, effect in self.effects.items() for name, rows in _rows_of(place, effect)}
         self._gas = layout.bundle(tables, self.effects)
@@ -128,7 +132,7 @@ class Engine:
         position = np.where(self.scene.walled, here * d, np.mod(here * d, self.box))
         position[position >= self.box] = 0.0
         more: dict[str, np.ndarray] = {}
-        for effect in self.effects.values():
+        for effect in self._all_effects():
             more |= effect.of_particles(self.scene) if hasattr(effect, "of_particles") else {}
         return State(
             time=self.time,
@@ -145,7 +149,7 @@ class Engine:
         """The sums over all collisions since the tally was last taken."""
         t, d2, reached = self.arrays["tally"][0], self.scene.diameter**2, self._gas.calendar.reached
         done, more = self.collisions, {}
-        for effect in self.effects.values():
+        for effect in self._all_effects():
             more |= effect.take(self.scene) if hasattr(effect, "take") else {}
         taken = Tally(
             collisions=int(t["collisions"]),
@@ -170,13 +174,22 @@ class Engine:
             interval: between the two samples (s).
         """
         found: dict[str, float] = {}
-        for effect in self.effects.values():
+        for effect in self._all_effects():
             found |= effect.observe(self.scene, state, tally, interval) if hasattr(effect, "observe") else {}
         return found
+
+    def _all_effects(self) -> list[Any]:
+        """The effects of all places, and those that they hold."""
+        return [part for effect in self.effects.values() for part in _with_held(effect)]
 
     def involved(self) -> np.ndarray:
         """Numbers of the disks that took part in a collapse; empty where none was noticed."""
         return self.watch.members() if hasattr(self.watch, "members") else np.empty(0, np.int64)
+
+
+def _with_held(effect: Any) -> list[Any]:
+    """An effect and those that it holds."""
+    return [effect, *(part for held in effect if hasattr(type(held), "_asdict") for part in _with_held(held))]
 
 
 def _rows_of(place: str, effect: Any) -> list[tuple[str, np.ndarray]]:

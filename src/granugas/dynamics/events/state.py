@@ -85,7 +85,7 @@ def layouts(dimensions: int) -> dict[str, np.dtype]:
     tally = [  # sums over the collisions since the tally was last taken
         ("taken", "i8"),  # collisions of all tallies before
         ("collisions", "i8"),
-        ("elastic", "i8"),  # by the TC rule
+        ("elastic", "i8"),  # by a rule
         ("crossings", "i8"),
         ("loss", "f8"),  # energy dissipated (m d^2/s^2)
         ("loss_time", "f8"),  # sum of loss times the time when it happened, from calendar.base

@@ -6,18 +6,30 @@ Nothing is imported here: which files a scene calls for is known without compili
 from granugas.scene import Scene
 
 
-def called_by(scene: Scene) -> dict[str, str]:
+def called_by(scene: Scene) -> dict[str, str | tuple[str, ...]]:
     """The effect files that a scene calls for, by the place that each takes (cast.effects_of).
 
     A place that is not named holds what scenes without such an effect do. `material` answers for the coefficient of
-    restitution where the rule leaves it to it.
+    restitution where the rule leaves it to it. Several files in one place: each rule asks the next one where it does not
+    decide, the last one the material; what follows a collision happens in this order.
     """
     dissipates, lasting = scene.dissipates, any(scene.contact_times)
-    called = {"material": "constant", "rule": "hard", "watch": "nobody"}
-    if lasting:
-        called["rule"] = "contact_time" if dissipates else "elastic_share"
+    called = {"material": scene.material, "rule": "hard", "watch": "nobody"}
+    if dissipates:
+        rules = {
+            "internal_modes": scene.internal_modes,
+            "critical_distance": scene.critical_distance,
+            "contact_time_of_velocity": scene.contact_time_exponent,
+            "contact_time": lasting and not scene.contact_time_exponent,
+        }
+        called["rule"] = tuple(name for name, wanted in rules.items() if wanted) or "hard"
+    elif lasting:
+        called["rule"] = "elastic_share"
     if dissipates != lasting:  # without a contact duration they can collapse; elastic ones with one have times to add up
         called["watch"] = "collapse" if dissipates else "elastic_time"
+    after = {"rotation": scene.rotation_angle, "kick": scene.kick_energy}
+    if any(after.values()):
+        called["after"] = tuple(name for name, wanted in after.items() if wanted)
     if scene.rough:
         called["surface"] = "rough"
     if scene.sizes != "equal":
@@ -37,5 +49,10 @@ def called_by(scene: Scene) -> dict[str, str]:
 
 def modules_of(*scenes: Scene) -> tuple[str, ...]:
     """Full names of the files that scenes call for."""
-    names = {name for scene in scenes for name in called_by(scene).values()}
+    names = {name for scene in scenes for held in called_by(scene).values() for name in several(held)}
     return tuple(f"{__name__}.{name}" for name in sorted(names))
+
+
+def several(names: str | tuple[str, ...]) -> tuple[str, ...]:
+    """The files of a place."""
+    return (names,) if isinstance(names, str) else names
