@@ -45,13 +45,13 @@ def test_across_gravity_lines_are_straight(v, delay, upper):
 
 @pytest.mark.parametrize("v", [1e-12, 1e-3, 1.0, 1e6])
 def test_a_flight_from_the_floor_to_the_floor_is_exact(v):
-    assert leaves(DOWN, 1, -0.5, v, -0.5, math.inf) == (pytest.approx(2 * v / G, rel=1e-15), False)
+    assert leaves(DOWN, 1, -0.5, v, -0.5, math.inf) == (pytest.approx(2 * v / G, rel=1e-15, abs=0.0), False)
 
 
 def test_no_digit_is_lost_where_roots_are_near():
     """The distance to the floor is 1e-13 of the height that the speed is worth."""
-    assert leaves(DOWN, 1, 1e-12, -10.0, 0.0, 2.0)[0] == pytest.approx(1e-13, rel=1e-12)
-    assert leaves(DOWN, 1, -1e-12, 10.0, -1.0, 0.0) == (pytest.approx(1e-13, rel=1e-12), True)
+    assert leaves(DOWN, 1, 1e-12, -10.0, 0.0, 2.0)[0] == pytest.approx(1e-13, rel=1e-12, abs=0.0)
+    assert leaves(DOWN, 1, -1e-12, 10.0, -1.0, 0.0) == (pytest.approx(1e-13, rel=1e-12, abs=0.0), True)
 
 
 def test_outside_by_rounding_is_at_the_end():

@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 from gases import lattice_gas
+from reference_walls import follow_between_walls
 
 from granugas.dynamics.events import loop
 from granugas.dynamics.events.effects.recorder import recorder
@@ -56,6 +57,19 @@ def test_a_hit_at_a_wall_releases_the_partner():
     engine.advance(10.0)
     assert engine.watch.seen.rows[["i", "j"]].tolist() == [(-1, 1), (0, 1)]
     np.testing.assert_allclose(engine.watch.seen.rows["time"], [1.0, 1.0 + 0.5 / 3], rtol=1e-14)
+
+
+@pytest.mark.parametrize("order", [[0, 1, 2], [1, 0, 2]])
+def test_hits_and_collisions_that_follow_each_other_closely_are_those_of_brute_force(order):
+    """The second is to meet the first, but is turned by the wall, then by the third: the old appointment is gone."""
+    position = np.array([[7.45, 4.75], [7.2, 2.0], [6.5, 3.3]])[order]
+    velocity = np.array([[0.0, 0.0], [0.6, 2.0], [0.0, 0.0]])[order]
+    engine = between_walls(position, velocity, 3)
+    expected = follow_between_walls(engine.state(), engine.scene, 3)
+    engine.advance(10.0)
+    seen = engine.watch.seen.rows
+    np.testing.assert_array_equal(np.stack([seen["i"], seen["j"]], axis=1), expected.who)
+    np.testing.assert_allclose(seen["time"], expected.time, rtol=1e-12)
 
 
 def test_a_wall_takes_energy_and_momentum():
