@@ -86,12 +86,12 @@ def doubts_after(run: xr.Dataset) -> list[str]:
     return lines
 
 
-def tell(lines: Iterable[str]) -> None:
+def tell(lines: Iterable[str], level: int = logging.WARNING) -> None:
     """Say each line once in the log: realizations that one job runs share their doubts."""
     for line in lines:
-        _say(line)
+        _say(line, level)
 
 
 @cache
-def _say(line: str) -> None:
-    logger.warning("%s", line)
+def _say(line: str, level: int) -> None:
+    logger.log(level, "%s", line)

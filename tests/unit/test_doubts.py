@@ -103,6 +103,16 @@ def test_a_run_that_ends_early_says_what_is_missing(caplog):
     assert len(caplog.records) == 2  # not again
 
 
+def test_what_is_missing_after_a_stop_that_was_told_is_not_told_aloud_again(caplog):
+    with caplog.at_level(logging.INFO, "granugas"):
+        run = gg.simulate(GAS, 0.1, seed=3, snapshots=[0.09], max_collisions=300, progress=False)
+    late = [record for record in caplog.records if "beyond the end of the run" in record.getMessage()]
+    assert [record.getMessage() for record in late] == run.attrs["warnings"].splitlines() != []
+    assert {record.levelno for record in late} == {logging.INFO}
+    aloud = [record.getMessage() for record in caplog.records if record.levelno == logging.WARNING]
+    assert len(aloud) == 1 and aloud[0].startswith("max_collisions reached at t = ")
+
+
 def test_a_run_without_doubts_is_silent(caplog):
     with caplog.at_level(logging.WARNING, "granugas"):
         run = gg.simulate(GAS, 0.02, snapshots=[0.0, 0.01, 0.02], progress=False)

@@ -48,6 +48,24 @@ def test_warnings_of_the_package_reach_the_terminal_too(tmp_path: Path) -> None:
     assert "from granugas.x" in (tmp_path / "job.log").read_text()
 
 
+def test_the_terminal_gets_the_first_warning_of_a_kind_and_the_log_all(tmp_path: Path) -> None:
+    code = (
+        "import logging; warn = logging.getLogger('granugas').warning; "
+        "[warn('%d disks (%s) collapse', k, ', '.join('9' * k)) for k in range(1, 65)]; [warn('too cold') for k in range(2)]"
+    )
+    done, log = script(code, tmp_path / "job.log"), tmp_path / "job.log"
+    said = [line.partition(" job: ")[2] for line in done.stderr.splitlines()]
+    assert said == ["1 disks (9) collapse", "too cold", f"64 more warnings like that: {log}"]
+    assert log.read_text().count("collapse") == 64 and log.read_text().count("too cold") == 2
+
+
+def test_the_terminal_is_told_of_the_rest_where_a_job_fails(tmp_path: Path) -> None:
+    code = "import logging; [logging.getLogger('granugas').warning('no. %d', k) for k in range(3)]; raise ValueError('no')"
+    done = script(code, tmp_path / "job.log")
+    assert done.stderr.count("\n") == 2 and "2 more warnings like that: " in done.stderr
+    assert (tmp_path / "job.log").read_text().splitlines()[-1] == "ValueError: no"
+
+
 def test_an_error_is_the_last_line_of_the_log(tmp_path: Path) -> None:
     done = script("raise ArithmeticError('no such gas')", tmp_path / "job.log")
     assert done.returncode == 1
