@@ -20,6 +20,9 @@ RELAXED = 10.0
 FEWEST_CELLS = 3
 """In a box of fewer in one direction, a disk is a neighbour of the images of its neighbours."""
 
+RESOLVED = 1e-30
+"""K below which rounding decides: the common velocity that it leaves, 1e-16 of the first speeds, does not decay."""
+
 FEWEST_FOR_CLUSTERS = 100
 """A box of fewer disks is less than ten mean distances wide: a cluster of ten disks meets its own image."""
 
@@ -74,10 +77,15 @@ def doubts_before(scene: Scene, start: Mapping[str, Any], cells: Sequence[int], 
 
 
 def doubts_after(run: xr.Dataset) -> list[str]:
-    """What lies beyond the end of a run that has `stop_time` and `stop_reason`."""
+    """What lies beyond the end of a run that has `stop_time` and `stop_reason`, and beyond that of double precision."""
     end = f"beyond the end of the run at t = {run['stop_time'].item():.6g} s ({run['stop_reason'].item()})"
     samples, snapshots = run["kinetic_energy"].isnull(), run["velocity"].isnull().any(["particle", "axis"])
     lines = []
+    if number := int((run["kinetic_energy"] < RESOLVED).sum()):
+        lines.append(
+            f"kinetic_energy: {number} of {samples.size} samples lie below {RESOLVED:g}, beyond the end of double precision: "
+            "they count the common motion that rounding leaves"
+        )
     if samples.any():
         lines.append(f"samples: {int(samples.sum())} of {samples.size} lie {end} and are NaN")
     if snapshots.any():
