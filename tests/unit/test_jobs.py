@@ -7,6 +7,7 @@ import time
 from pathlib import Path
 
 import xarray as xr
+from workflow.project import is_running, wait_for
 
 from granugas import digest
 from granugas.jobs import Job, claim, damaged, date_now, failures, progress, warm_up
@@ -26,11 +27,6 @@ def written(path: Path, text: str, when: float) -> Path:
 def script(code: str, log: Path) -> subprocess.CompletedProcess[str]:
     text = f"from granugas.jobs import logged\nwith logged({str(log)!r}):\n    {code}\n"
     return subprocess.run([sys.executable, "-c", text], capture_output=True, text=True)
-
-
-def is_running(pid: int) -> bool:
-    stat = Path(f"/proc/{pid}/stat")
-    return stat.exists() and stat.read_text().rpartition(")")[2].split()[0] != "Z"
 
 
 def test_all_output_goes_to_the_log(tmp_path: Path) -> None:
@@ -74,19 +70,15 @@ def test_an_error_is_the_last_line_of_the_log(tmp_path: Path) -> None:
 
 def test_a_job_dies_with_the_process_that_started_it(tmp_path: Path) -> None:
     log = tmp_path / "job.log"
-    job = f"from granugas.jobs import logged\nwith logged({str(log)!r}):\n    import time; time.sleep(60)"
+    job = f"from granugas.jobs import logged\nwith logged({str(log)!r}):\n    import time; time.sleep(600)"
     start = f"import subprocess, sys; job = subprocess.Popen([sys.executable, '-c', {job!r}])"
     command = [sys.executable, "-c", f"{start}; print(job.pid, flush=True); job.wait()"]
     parent = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
     pid = int(parent.stdout.readline())
-    while not log.exists():
-        time.sleep(0.02)
+    wait_for(log.exists)
     parent.kill()
     parent.wait()
-    end = time.monotonic() + 5
-    while is_running(pid):
-        assert time.monotonic() < end
-        time.sleep(0.02)
+    wait_for(lambda: not is_running(pid), 60.0)
 
 
 def test_a_folder_is_claimed_by_one_process(tmp_path: Path) -> None:

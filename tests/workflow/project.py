@@ -5,7 +5,8 @@ import re
 import shutil
 import subprocess
 import sys
-from collections.abc import Iterator
+import time
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -38,6 +39,18 @@ class Project:
     def environment(self) -> dict[str, str]:
         """The environment in which the package is the sources' one."""
         return os.environ | {"SLURM_CONF": "/dev/null", "PYTHONPATH": str(self.sources / "src")}
+
+    def start(self, *words: object) -> subprocess.Popen[bytes]:
+        """Call it in a process group of its own and do not wait; what it says goes to the folder's said.txt."""
+        with open(self.folder / "said.txt", "w") as said:
+            return subprocess.Popen(
+                self.command(*words),
+                env=self.environment,
+                cwd=self.folder,
+                stdout=said,
+                stderr=said,
+                start_new_session=True,
+            )
 
     def snakemake(self, *words: object) -> subprocess.CompletedProcess[str]:
         """Call it and wait; standard error is part of the output."""
@@ -86,3 +99,27 @@ def copy_of_sources(folder: Path) -> Path:
         else:
             shutil.copy2(path, folder / name)
     return folder
+
+
+def jobs_of(pid: int) -> list[int]:
+    """The processes that a process has started and that still run; none where it has ended."""
+    try:
+        return [int(job) for path in Path(f"/proc/{pid}/task").glob("*/children") for job in path.read_text().split()]
+    except OSError:
+        return []
+
+
+def is_running(pid: int) -> bool:
+    """Whether a process is there and is no zombie that nobody has asked for its end yet."""
+    try:
+        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+    except OSError:
+        return False
+
+
+def wait_for(condition: Callable[[], object], seconds: float = 300.0) -> None:
+    """Ask again and again; a test that waits in vain fails."""
+    end = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < end, "waited in vain"
+        time.sleep(0.02)
