@@ -71,10 +71,7 @@ class Project:
 
     def jobs(self, *words: object) -> dict[str, int]:
         """How many jobs of each rule a dry run announces."""
-        said = self.build("--dry-run", *words)
-        table = said.partition("Job stats:")[2].partition("\n\n")[0]
-        found = {match[1]: int(match[2]) for match in re.finditer(r"^(\w+) +(\d+)$", table, re.M)}
-        return {rule: number for rule, number in found.items() if rule not in ("total", "all")}
+        return jobs_announced(self.build("--dry-run", *words))
 
     @contextmanager
     def edited(self, file: str, old: str, new: str) -> Iterator[None]:
@@ -99,6 +96,13 @@ def copy_of_sources(folder: Path) -> Path:
         else:
             shutil.copy2(path, folder / name)
     return folder
+
+
+def jobs_announced(said: str) -> dict[str, int]:
+    """How many jobs of each rule a build said that it would run."""
+    table = said.partition("Job stats:")[2].partition("\n\n")[0]
+    found = {match[1]: int(match[2]) for match in re.finditer(r"^(\w+) +(\d+)$", table, re.M)}
+    return {rule: number for rule, number in found.items() if rule not in ("total", "all")}
 
 
 def jobs_of(pid: int) -> list[int]:

@@ -12,7 +12,7 @@ from contextlib import suppress
 from pathlib import Path
 
 import pytest
-from workflow.project import Project, copy_of_sources, jobs_of, wait_for
+from workflow.project import Project, copy_of_sources, jobs_announced, jobs_of, wait_for
 
 from granugas.storage.dataset import content_sha256, read
 
@@ -196,6 +196,22 @@ def test_cut_off_files_and_dates_of_the_future_are_repaired_by_the_same_call(who
     assert "Traceback" not in said
     assert contents(copied) == contents(whole)
     assert copied.jobs(*TARGET) == {}
+
+
+@pytest.mark.parametrize(
+    ("folder", "jobs"),
+    [
+        ("states", {}),
+        ("runs", {"simulate": 1, "clusters": 1, "pool": 1}),
+        ("clusters", {"clusters": 1, "pool": 1}),
+        ("studies", {"pool": 1}),
+    ],
+)
+def test_of_what_is_whole_nothing_is_made_again(whole: Project, copied: Project, folder: str, jobs: dict[str, int]) -> None:
+    path = the_file(copied, folder)
+    os.truncate(path, path.stat().st_size // 2)
+    assert jobs_announced(copied.build()) == jobs | {"figure_study_small": 1}  # which was not built before
+    assert folder == "states" or contents(copied) == contents(whole)
 
 
 def flip(path: Path) -> None:
