@@ -167,12 +167,14 @@ def warm_up(log: str | Path, scenes: Iterable[Scene]) -> None:
 
     No rule does this: compiled kernels belong to the machine, not to the results. Where it fails it tries once more
     without the kernels that are there, which may be damaged; where that fails the jobs fail too, and say so in their logs.
+    Where it was killed the kernels are not to blame.
     """
     Path(log).parent.mkdir(parents=True, exist_ok=True)
     with open(log, "w") as file:
         kinds = {(scene.restitution == 1, any(scene.contact_times)): scene for scene in scenes}  # same kernels, same kind
         command = [sys.executable, "-c", f"from granugas import Scene, warm_up; warm_up({list(kinds.values())!r})"]
-        if subprocess.run(command, stdout=file, stderr=subprocess.STDOUT, check=False).returncode:
+        code = subprocess.run(command, stdout=file, stderr=subprocess.STDOUT, check=False).returncode
+        if code and -code not in (signal.SIGTERM, signal.SIGINT, signal.SIGKILL):
             forget_kernels()
             subprocess.run(command, stdout=file, stderr=subprocess.STDOUT, check=False)
 

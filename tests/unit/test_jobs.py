@@ -1,11 +1,13 @@
 """Logs that keep the reason, progress and the report of what failed."""
 
 import os
+import signal
 import subprocess
 import sys
 import time
 from pathlib import Path
 
+import pytest
 import xarray as xr
 from workflow.project import is_running, wait_for
 
@@ -171,12 +173,21 @@ def test_files_of_the_future_are_dated_so_that_nothing_old_is_believed(tmp_path:
     assert (figure.stat().st_mtime, table.stat().st_mtime, old.stat().st_mtime) == (0.0, 0.0, OLD)
 
 
-def test_kernels_that_cannot_be_used_are_compiled_again(tmp_path: Path, monkeypatch) -> None:
+@pytest.mark.parametrize(
+    ("code", "expected"),
+    [
+        (0, ["run"]),
+        (1, ["run", "forget", "run"]),
+        (-signal.SIGSEGV, ["run", "forget", "run"]),
+        *((-number, ["run"]) for number in (signal.SIGTERM, signal.SIGINT, signal.SIGKILL)),
+    ],
+)
+def test_kernels_that_cannot_be_used_are_compiled_again(tmp_path: Path, monkeypatch, code: int, expected: list[str]) -> None:
     calls = []
     monkeypatch.setattr("granugas.jobs.forget_kernels", lambda: calls.append("forget"))
-    monkeypatch.setattr(subprocess, "run", lambda *_, **__: calls.append("run") or subprocess.CompletedProcess([], 1))
+    monkeypatch.setattr(subprocess, "run", lambda *_, **__: calls.append("run") or subprocess.CompletedProcess([], code))
     warm_up(tmp_path / "log", [Scene()])
-    assert calls == ["run", "forget", "run"]
+    assert calls == expected
 
 
 def test_only_kernels_of_its_own_are_forgotten(tmp_path: Path, monkeypatch) -> None:
