@@ -136,9 +136,11 @@ def test_interrupted_at_any_moment_the_same_command_ends_with_the_same_files(who
     while sum(cut.values()) < MANY:
         kind = min(cut, key=cut.__getitem__)
         shutil.rmtree(fresh.folder / "results")
-        build = fresh.start(*TARGET)
-        time.sleep(rng.uniform(0, 0.9 * duration))
-        cut[kind] += interrupt(build, kind, rng)
+        begun, build = time.monotonic(), fresh.start(*TARGET)
+        with suppress(subprocess.TimeoutExpired):
+            build.wait(rng.uniform(0, duration))
+        cut[kind] += (in_time := interrupt(build, kind, rng))
+        duration = 1.1 * duration if in_time else time.monotonic() - begun  # builds take longer or shorter by what else runs
         assert "Traceback" not in fresh.build(*TARGET)
         resumed += "goes on from a checkpoint" in log_of_run(fresh)
         assert contents(fresh) == contents(whole), kind
