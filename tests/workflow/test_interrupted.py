@@ -26,7 +26,7 @@ STUDY = {
     "distance_factors": [1.05, 1.1],
     "checkpoint_seconds": 0.2,
 }
-MANY = 102
+MANY = int(os.environ.get("INTERRUPTIONS", 102))
 """Interruptions of the long test, as many of each kind."""
 
 SEED = int(os.environ.get("INTERRUPTION_SEED", random.SystemRandom().randrange(10**6)))
@@ -144,6 +144,7 @@ def test_interrupted_at_any_moment_the_same_command_ends_with_the_same_files(who
         assert "Traceback" not in fresh.build(*TARGET)
         resumed += "goes on from a checkpoint" in log_of_run(fresh)
         assert contents(fresh) == contents(whole), kind
+        print(sum(cut.values()), kind, "in time" if in_time else "too late", flush=True)
     print(cut, "of them went on from a checkpoint:", resumed)
 
 
