@@ -17,11 +17,11 @@ RELAXED = 10.0
 """Collisions per particle after which velocities that were uniformly distributed have the kurtosis of Maxwellian ones within
 2 % (measured up to nu = .6)."""
 
-FEWEST_CELLS = 3
-"""In a box of fewer in one direction, a disk is a neighbour of the images of its neighbours."""
-
 RESOLVED = 1e-30
 """K below which rounding decides: the common velocity that it leaves, 1e-16 of the first speeds, does not decay."""
+
+FEWEST_CELLS = 3
+"""In a box of fewer in one direction, a disk is a neighbour of the images of its neighbours."""
 
 FEWEST_FOR_CLUSTERS = 100
 """A box of fewer disks is less than ten mean distances wide: a cluster of ten disks meets its own image."""
