@@ -18,6 +18,9 @@ RELAXED = 10.0
 """Collisions per particle after which velocities that were uniformly distributed have the kurtosis of Maxwellian ones within
 2 % (measured up to nu = .6)."""
 
+RESOLVED = 1e-30
+"""K below which rounding decides: the common velocity that it leaves, 1e-16 of the first speeds, does not decay."""
+
 FEWEST_CELLS = 3
 """In a box of fewer in one direction, a disk is a neighbour of the images of its neighbours."""
 
@@ -92,10 +95,15 @@ def _without_effect(scene: Scene) -> list[str]:
 
 
 def doubts_after(run: xr.Dataset) -> list[str]:
-    """What lies beyond the end of a run that has `stop_time` and `stop_reason`."""
+    """What lies beyond the end of a run that has `stop_time` and `stop_reason`, and beyond that of double precision."""
     end = f"beyond the end of the run at t = {run['stop_time'].item():.6g} s ({run['stop_reason'].item()})"
     samples, snapshots = run["kinetic_energy"].isnull(), run["velocity"].isnull().any(["particle", "axis"])
     lines = []
+    if number := int((run["kinetic_energy"] < RESOLVED).sum()):
+        lines.append(
+            f"kinetic_energy: {number} of {samples.size} samples lie below {RESOLVED:g}, beyond the end of double precision: "
+            "they count the common motion that rounding leaves"
+        )
     if samples.any():
         lines.append(f"samples: {int(samples.sum())} of {samples.size} lie {end} and are NaN")
     if snapshots.any():
@@ -104,12 +112,12 @@ def doubts_after(run: xr.Dataset) -> list[str]:
     return lines
 
 
-def tell(lines: Iterable[str]) -> None:
+def tell(lines: Iterable[str], level: int = logging.WARNING) -> None:
     """Say each line once in the log: realizations that one job runs share their doubts."""
     for line in lines:
-        _say(line)
+        _say(line, level)
 
 
 @cache
-def _say(line: str) -> None:
-    logger.warning("%s", line)
+def _say(line: str, level: int) -> None:
+    logger.log(level, "%s", line)

@@ -10,6 +10,7 @@ import subprocess
 import sys
 import threading
 import time
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -55,19 +56,42 @@ class Job(NamedTuple):
         return f"killed, perhaps for lack of memory; its last words: {said or 'none'}"
 
 
+class Terminal(logging.StreamHandler):
+    """What the terminal shows of a job's warnings: the first of each kind at once, at the end how many more the log has.
+
+    Warnings with the same words are of one kind, whatever the numbers in them: realizations of a job warn alike.
+    """
+
+    def __init__(self) -> None:
+        super().__init__(os.fdopen(os.dup(2), "w"))
+        self.setLevel(logging.WARNING)
+        self.addFilter(logging.Filter("granugas"))
+        self._kinds: Counter[tuple[str, ...]] = Counter()
+
+    def emit(self, record: logging.LogRecord) -> None:
+        """Show it if it is the first of its kind."""
+        kind = tuple(re.findall(r"[^\W\d]{2,}", record.getMessage()))
+        self._kinds[kind] += 1
+        if self._kinds[kind] == 1:
+            super().emit(record)
+
+    def finish(self, log: str | Path) -> None:
+        """Say what was not shown, where it is, and nothing where there is nothing."""
+        if more := self._kinds.total() - len(self._kinds):
+            super().emit(logging.makeLogRecord({"msg": f"{more} more warnings like that: {log}"}))
+
+
 @contextmanager
 def logged(path: str | Path) -> Iterator[None]:
     """Let everything that a job says go to its log, and the job die with the workflow that started it.
 
     Standard output, standard error and logging are sent to the file, so an error ends the log with its traceback, the
-    reason in the last line. The package's warnings go to the terminal as well. A damaged file that it meets is marked, for
-    the next build to look at (`damaged`).
+    reason in the last line. The package's warnings go to the terminal as well (`Terminal`). A damaged file that it meets is
+    marked, for the next build to look at (`damaged`).
     """
     if sys.platform == "linux":
         ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
-    terminal = logging.StreamHandler(os.fdopen(os.dup(2), "w"))
-    terminal.setLevel(logging.WARNING)
-    terminal.addFilter(logging.Filter("granugas"))
+    terminal = Terminal()
     try:
         Path(path).parent.mkdir(parents=True, exist_ok=True)
         with open(path, "w") as log:
@@ -83,6 +107,8 @@ def logged(path: str | Path) -> Iterator[None]:
     except DamagedFile as error:
         _mark_of(error.path).touch()
         raise
+    finally:
+        terminal.finish(path)
     logging.getLogger("granugas").info("done")
 
 
@@ -142,12 +168,14 @@ def warm_up(log: str | Path, scenes: Iterable[Scene]) -> None:
 
     No rule does this: compiled kernels belong to the machine, not to the results. Where it fails it tries once more
     without the kernels that are there, which may be damaged; where that fails the jobs fail too, and say so in their logs.
+    Where it was killed the kernels are not to blame.
     """
     Path(log).parent.mkdir(parents=True, exist_ok=True)
     with open(log, "w") as file:
         kinds = {(scene.dimensions, *called_by(scene).values()): scene for scene in scenes}  # same kernels, same kind
         command = [sys.executable, "-c", f"from granugas import Scene, warm_up; warm_up({list(kinds.values())!r})"]
-        if subprocess.run(command, stdout=file, stderr=subprocess.STDOUT, check=False).returncode:
+        code = subprocess.run(command, stdout=file, stderr=subprocess.STDOUT, check=False).returncode
+        if code and -code not in (signal.SIGTERM, signal.SIGINT, signal.SIGKILL):
             forget_kernels()
             subprocess.run(command, stdout=file, stderr=subprocess.STDOUT, check=False)
 

@@ -117,7 +117,8 @@ def simulate(
     data["seed"], data["realization"] = seed, realization
     data["events"], data["stop_reason"], data["stop_time"] = engine.collisions, reason, engine.time
     data["wall_time"], data["cpu_time"] = clock.spent
-    tell(late := doubts_after(data))
+    told = reason in ("max_seconds", "max_collisions", "inelastic_collapse")
+    tell(late := doubts_after(data), logging.INFO if told else logging.WARNING)
     data.attrs["warnings"] = "\n".join([*doubts, *late])
     return describe(data)
 
@@ -198,6 +199,6 @@ def _collapse_message(engine: Engine) -> str:
     names = ", ".join(map(str, who[:12])) + (" ..." if len(who) > 12 else "")
     return (
         f"inelastic collapse at t = {engine.time:.9g} s: the time between the collisions of {len(who)} disks ({names}) has "
-        "fallen below what numbers resolve, with infinitely many collisions ahead in finite time; the run stops here. "
-        "A contact_time > 0 (the TC model) avoids it."
+        "fallen below what numbers resolve, with infinitely many collisions ahead in finite time; the run stops here, NaN "
+        "after it. A contact_time > 0 (the TC model) avoids it."
     )

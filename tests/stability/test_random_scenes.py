@@ -18,7 +18,7 @@ from granugas.equilibrate import at_rest
 from granugas.initial import Lattice, sites, start_lattice
 from granugas.scene import Scene, SceneError
 
-pytestmark = pytest.mark.timeout(300, method="thread")  # a signal would wait for the compiled code to return
+pytestmark = pytest.mark.timeout(600, method="thread")  # a signal would wait for the compiled code to return
 
 SEED = 1998
 LOOKS = 4

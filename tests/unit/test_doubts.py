@@ -103,6 +103,29 @@ def test_a_run_that_ends_early_says_what_is_missing(caplog):
     assert len(caplog.records) == 2  # not again
 
 
+def test_what_is_missing_after_a_stop_that_was_told_is_not_told_aloud_again(caplog):
+    with caplog.at_level(logging.INFO, "granugas"):
+        run = gg.simulate(GAS, 0.1, seed=3, snapshots=[0.09], max_collisions=300, progress=False)
+    late = [record for record in caplog.records if "beyond the end of the run" in record.getMessage()]
+    assert [record.getMessage() for record in late] == run.attrs["warnings"].splitlines() != []
+    assert {record.levelno for record in late} == {logging.INFO}
+    aloud = [record.getMessage() for record in caplog.records if record.levelno == logging.WARNING]
+    assert len(aloud) == 1 and aloud[0].startswith("max_collisions reached at t = ")
+
+
+def test_where_double_precision_ends(caplog):
+    """138/(1 - r^2) = 164 collisions of a disk end at K = 1e-30 in the homogeneous state."""
+    gas = gg.Scene(n_particles=42, restitution=0.4, contact_time=1e-12)
+    asked = {"samples": {"spacing": "linear", "count": 20}, "keep_positions": False, "progress": False}
+    with caplog.at_level(logging.WARNING, "granugas"):
+        run = gg.simulate(gas, {"collisions_per_particle": 300}, **asked)
+    number = int((run["kinetic_energy"] < 1e-30).sum())
+    assert 0 < number < 20
+    (line,) = run.attrs["warnings"].splitlines()
+    assert line.startswith(f"kinetic_energy: {number} of 21 samples lie below 1e-30, beyond the end of double precision")
+    assert [record.getMessage() for record in caplog.records] == [line]
+
+
 def test_a_run_without_doubts_is_silent(caplog):
     with caplog.at_level(logging.WARNING, "granugas"):
         run = gg.simulate(GAS, 0.02, snapshots=[0.0, 0.01, 0.02], progress=False)

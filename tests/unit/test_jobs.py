@@ -1,12 +1,15 @@
 """Logs that keep the reason, progress and the report of what failed."""
 
 import os
+import signal
 import subprocess
 import sys
 import time
 from pathlib import Path
 
+import pytest
 import xarray as xr
+from workflow.project import is_running, wait_for
 
 from granugas import digest
 from granugas.jobs import Job, claim, damaged, date_now, failures, progress, warm_up
@@ -28,11 +31,6 @@ def script(code: str, log: Path) -> subprocess.CompletedProcess[str]:
     return subprocess.run([sys.executable, "-c", text], capture_output=True, text=True)
 
 
-def is_running(pid: int) -> bool:
-    stat = Path(f"/proc/{pid}/stat")
-    return stat.exists() and stat.read_text().rpartition(")")[2].split()[0] != "Z"
-
-
 def test_all_output_goes_to_the_log(tmp_path: Path) -> None:
     code = "import os, logging; print('said'); os.system('echo shell'); logging.getLogger('granugas.x').info('logged')"
     done = script(code, tmp_path / "logs/job.log")
@@ -48,6 +46,24 @@ def test_warnings_of_the_package_reach_the_terminal_too(tmp_path: Path) -> None:
     assert "from granugas.x" in (tmp_path / "job.log").read_text()
 
 
+def test_the_terminal_gets_the_first_warning_of_a_kind_and_the_log_all(tmp_path: Path) -> None:
+    code = (
+        "import logging; warn = logging.getLogger('granugas').warning; "
+        "[warn('%d disks (%s) collapse', k, ', '.join('9' * k)) for k in range(1, 65)]; [warn('too cold') for k in range(2)]"
+    )
+    done, log = script(code, tmp_path / "job.log"), tmp_path / "job.log"
+    said = [line.partition(" job: ")[2] for line in done.stderr.splitlines()]
+    assert said == ["1 disks (9) collapse", "too cold", f"64 more warnings like that: {log}"]
+    assert log.read_text().count("collapse") == 64 and log.read_text().count("too cold") == 2
+
+
+def test_the_terminal_is_told_of_the_rest_where_a_job_fails(tmp_path: Path) -> None:
+    code = "import logging; [logging.getLogger('granugas').warning('no. %d', k) for k in range(3)]; raise ValueError('no')"
+    done = script(code, tmp_path / "job.log")
+    assert done.stderr.count("\n") == 2 and "2 more warnings like that: " in done.stderr
+    assert (tmp_path / "job.log").read_text().splitlines()[-1] == "ValueError: no"
+
+
 def test_an_error_is_the_last_line_of_the_log(tmp_path: Path) -> None:
     done = script("raise ArithmeticError('no such gas')", tmp_path / "job.log")
     assert done.returncode == 1
@@ -56,19 +72,15 @@ def test_an_error_is_the_last_line_of_the_log(tmp_path: Path) -> None:
 
 def test_a_job_dies_with_the_process_that_started_it(tmp_path: Path) -> None:
     log = tmp_path / "job.log"
-    job = f"from granugas.jobs import logged\nwith logged({str(log)!r}):\n    import time; time.sleep(60)"
+    job = f"from granugas.jobs import logged\nwith logged({str(log)!r}):\n    import time; time.sleep(600)"
     start = f"import subprocess, sys; job = subprocess.Popen([sys.executable, '-c', {job!r}])"
     command = [sys.executable, "-c", f"{start}; print(job.pid, flush=True); job.wait()"]
     parent = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
     pid = int(parent.stdout.readline())
-    while not log.exists():
-        time.sleep(0.02)
+    wait_for(log.exists)
     parent.kill()
     parent.wait()
-    end = time.monotonic() + 5
-    while is_running(pid):
-        assert time.monotonic() < end
-        time.sleep(0.02)
+    wait_for(lambda: not is_running(pid), 60.0)
 
 
 def test_a_folder_is_claimed_by_one_process(tmp_path: Path) -> None:
@@ -161,12 +173,21 @@ def test_files_of_the_future_are_dated_so_that_nothing_old_is_believed(tmp_path:
     assert (figure.stat().st_mtime, table.stat().st_mtime, old.stat().st_mtime) == (0.0, 0.0, OLD)
 
 
-def test_kernels_that_cannot_be_used_are_compiled_again(tmp_path: Path, monkeypatch) -> None:
+@pytest.mark.parametrize(
+    ("code", "expected"),
+    [
+        (0, ["run"]),
+        (1, ["run", "forget", "run"]),
+        (-signal.SIGSEGV, ["run", "forget", "run"]),
+        *((-number, ["run"]) for number in (signal.SIGTERM, signal.SIGINT, signal.SIGKILL)),
+    ],
+)
+def test_kernels_that_cannot_be_used_are_compiled_again(tmp_path: Path, monkeypatch, code: int, expected: list[str]) -> None:
     calls = []
     monkeypatch.setattr("granugas.jobs.forget_kernels", lambda: calls.append("forget"))
-    monkeypatch.setattr(subprocess, "run", lambda *_, **__: calls.append("run") or subprocess.CompletedProcess([], 1))
+    monkeypatch.setattr(subprocess, "run", lambda *_, **__: calls.append("run") or subprocess.CompletedProcess([], code))
     warm_up(tmp_path / "log", [Scene()])
-    assert calls == ["run", "forget", "run"]
+    assert calls == expected
 
 
 def test_only_kernels_of_its_own_are_forgotten(tmp_path: Path, monkeypatch) -> None:

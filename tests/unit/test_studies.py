@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 import yaml
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from granugas import studies
@@ -171,6 +171,7 @@ def test_short_contact_times_are_expected_to_cost_more() -> None:
     assert rare < often / 5 and often <= endless < math.inf
 
 
+@settings(deadline=None)
 @given(st.floats(min_value=1e-12, max_value=1e12))
 def test_a_digest_sees_twelve_digits(value: float) -> None:
     assert digest_of([value]) == digest_of([float(f"{value:.12g}")])

@@ -11,7 +11,7 @@ from granugas.scene import Scene
 
 MANY = 10_000_000
 LOOKS = 100
-FULL = [pytest.mark.full, pytest.mark.timeout(1200)]
+FULL = [pytest.mark.full, pytest.mark.timeout(3600)]
 
 
 def started(scene: Scene) -> Engine:

@@ -5,7 +5,8 @@ import re
 import shutil
 import subprocess
 import sys
-from collections.abc import Iterator
+import time
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -39,6 +40,18 @@ class Project:
         """The environment in which the package is the sources' one."""
         return os.environ | {"SLURM_CONF": "/dev/null", "PYTHONPATH": str(self.sources / "src")}
 
+    def start(self, *words: object) -> subprocess.Popen[bytes]:
+        """Call it in a process group of its own and do not wait; what it says goes to the folder's said.txt."""
+        with open(self.folder / "said.txt", "w") as said:
+            return subprocess.Popen(
+                self.command(*words),
+                env=self.environment,
+                cwd=self.folder,
+                stdout=said,
+                stderr=said,
+                start_new_session=True,
+            )
+
     def snakemake(self, *words: object) -> subprocess.CompletedProcess[str]:
         """Call it and wait; standard error is part of the output."""
         return subprocess.run(
@@ -58,10 +71,7 @@ class Project:
 
     def jobs(self, *words: object) -> dict[str, int]:
         """How many jobs of each rule a dry run announces."""
-        said = self.build("--dry-run", *words)
-        table = said.partition("Job stats:")[2].partition("\n\n")[0]
-        found = {match[1]: int(match[2]) for match in re.finditer(r"^(\w+) +(\d+)$", table, re.M)}
-        return {rule: number for rule, number in found.items() if rule not in ("total", "all")}
+        return jobs_announced(self.build("--dry-run", *words))
 
     @contextmanager
     def edited(self, file: str, old: str, new: str) -> Iterator[None]:
@@ -86,3 +96,34 @@ def copy_of_sources(folder: Path) -> Path:
         else:
             shutil.copy2(path, folder / name)
     return folder
+
+
+def jobs_announced(said: str) -> dict[str, int]:
+    """How many jobs of each rule a build said that it would run."""
+    table = said.partition("Job stats:")[2].partition("\n\n")[0]
+    found = {match[1]: int(match[2]) for match in re.finditer(r"^(\w+) +(\d+)$", table, re.M)}
+    return {rule: number for rule, number in found.items() if rule not in ("total", "all")}
+
+
+def jobs_of(pid: int) -> list[int]:
+    """The processes that a process has started and that still run; none where it has ended."""
+    try:
+        return [int(job) for path in Path(f"/proc/{pid}/task").glob("*/children") for job in path.read_text().split()]
+    except OSError:
+        return []
+
+
+def is_running(pid: int) -> bool:
+    """Whether a process is there and is no zombie that nobody has asked for its end yet."""
+    try:
+        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+    except OSError:
+        return False
+
+
+def wait_for(condition: Callable[[], object], seconds: float = 300.0) -> None:
+    """Ask again and again; a test that waits in vain fails."""
+    end = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < end, "waited in vain"
+        time.sleep(0.02)

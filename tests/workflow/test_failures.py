@@ -1,13 +1,11 @@
 """Runs that fail, builds that are killed, and two builds at once: reasons are kept, files are whole."""
 
-import os
 import signal
-import subprocess
-import time
-from collections.abc import Callable
 from pathlib import Path
+from subprocess import PIPE, STDOUT, Popen
 
-from workflow.project import Project
+import pytest
+from workflow.project import Project, is_running, jobs_of, wait_for
 
 from granugas.storage.dataset import read
 
@@ -32,44 +30,22 @@ def fail_for_one(scene, *arguments, **options):
 
 cool, simulate = simulate, fail_for_one
 """
-SLOW_WRITE = "import time; time.sleep(60); os.replace(temporary, path)"
+AFTER_SIMULATE = "\n\nclass Clock:"
+HESITATING_WRITE = "import time; time.sleep(2); os.replace(temporary, path)"
+SLOW_WRITE = "import time; time.sleep(600); os.replace(temporary, path)"
 
 
-def append(project: Project, file: str, text: str) -> None:
-    with open(project.sources / file, "a") as source:
-        source.write(text)
+@pytest.fixture
+def project(editable_project: Project, tmp_path: Path) -> Project:
+    """The copy of the sources that the tests of this file share, whose kernels are compiled once, and a folder of its own."""
+    return Project(editable_project.sources, tmp_path)
 
 
-def start(project: Project) -> subprocess.Popen[bytes]:
-    with open(project.folder / "said.txt", "w") as log:
-        return subprocess.Popen(project.command(), env=project.environment, cwd=project.folder, stdout=log, stderr=log)
-
-
-def wait_for(condition: Callable[[], object], seconds: float = 60.0) -> None:
-    end = time.monotonic() + seconds
-    while not condition():
-        assert time.monotonic() < end, "waited in vain"
-        time.sleep(0.1)
-
-
-def is_alive(pid: int) -> bool:
-    try:
-        os.kill(pid, 0)
-    except ProcessLookupError:
-        return False
-    return True
-
-
-def jobs_of(pid: int) -> list[int]:
-    threads = Path(f"/proc/{pid}/task").iterdir()
-    return [int(child) for thread in threads for child in (thread / "children").read_text().split()]
-
-
-def test_a_failing_run_leaves_its_reason_and_the_others_go_on(editable_copy: Project) -> None:
-    append(editable_copy, "src/granugas/simulate.py", DOOM)
-    editable_copy.configure(**CONFIG)
-    done = editable_copy.snakemake()
-    results = editable_copy.folder / "results"
+def test_a_failing_run_leaves_its_reason_and_the_others_go_on(project: Project) -> None:
+    project.configure(**CONFIG)
+    with project.edited("src/granugas/simulate.py", AFTER_SIMULATE, DOOM + AFTER_SIMULATE):
+        done = project.snakemake()
+    results = project.folder / "results"
     assert done.returncode == 1
     assert (results / "figures/study_sound.png").exists()
     assert not (results / "studies/doomed.nc").exists()
@@ -78,24 +54,37 @@ def test_a_failing_run_leaves_its_reason_and_the_others_go_on(editable_copy: Pro
     end = done.stdout.partition("Missing or out of date:")[2]
     missing, _, reasons = end.partition("Because of:")
     assert "results/figures/study_doomed.png" in missing and "sound" not in missing
-    assert "ArithmeticError: no such gas" in reasons and str(log.relative_to(editable_copy.folder)) in reasons
+    assert "ArithmeticError: no such gas" in reasons and str(log.relative_to(project.folder)) in reasons
 
 
-def test_a_killed_build_leaves_no_half_file_and_goes_on_later(editable_copy: Project) -> None:
-    editable_copy.configure(**CONFIG)
-    states = editable_copy.folder / "results/states"
-    with editable_copy.edited("src/granugas/storage/files.py", "os.replace(temporary, path)", SLOW_WRITE):
-        build = start(editable_copy)
+def test_a_killed_build_leaves_no_half_file_and_goes_on_later(project: Project) -> None:
+    project.configure(**CONFIG)
+    states = project.folder / "results/states"
+    with project.edited("src/granugas/storage/files.py", "os.replace(temporary, path)", SLOW_WRITE):
+        build = project.start()
         wait_for(lambda: len(list(states.glob(".*.nc.*"))) == 1)
         jobs = jobs_of(build.pid)
-        refused = editable_copy.snakemake()
+        refused = project.snakemake()
         build.send_signal(signal.SIGKILL)
         build.wait()
     assert jobs
-    wait_for(lambda: not any(map(is_alive, jobs)), 5.0)
+    wait_for(lambda: not any(map(is_running, jobs)), 60.0)
     assert list(states.glob("*.nc")) == []
     assert refused.returncode == 1
     assert "Another build is writing to results" in refused.stdout and "Traceback" not in refused.stdout
-    editable_copy.build("--", "results/studies/sound.nc")
+    project.build("--", "results/studies/sound.nc")
     assert list(states.glob(".*.nc.*")) == []
-    assert read(editable_copy.folder / "results/studies/sound.nc").sizes["time"] == 6
+    assert read(project.folder / "results/studies/sound.nc").sizes["time"] == 6
+
+
+def test_of_two_builds_that_start_at_once_one_goes_on_and_the_other_says_why_not(project: Project) -> None:
+    project.configure(**CONFIG | {"figures": ["study_sound"]})
+    command, at = project.command(), {"env": project.environment, "cwd": project.folder}
+    with project.edited("src/granugas/storage/files.py", "os.replace(temporary, path)", HESITATING_WRITE):
+        builds = [Popen(command, **at, stdout=PIPE, stderr=STDOUT, text=True) for _ in range(2)]
+        said = [build.communicate()[0] for build in builds]
+    assert sorted(build.returncode for build in builds) == [0, 1]
+    (refused,) = (words for words, build in zip(said, builds, strict=True) if build.returncode)
+    assert "Another build is writing to results: wait for its end" in refused
+    assert "Traceback" not in "".join(said)
+    assert read(project.folder / "results/studies/sound.nc").sizes["time"] == 6

@@ -7,11 +7,12 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
-from workflow.project import Project, copy_of_sources
+from workflow.project import Project, copy_of_sources, jobs_announced, jobs_of, wait_for
 
 from granugas.storage.dataset import content_sha256, read
 
@@ -20,12 +21,12 @@ FOLDERS = ("states", "runs", "positions", "clusters", "studies")
 TARGET = ("--", "results/studies/small.nc")
 STUDY = {
     "grid": {"n_particles": 100, "area_fraction": 0.3, "restitution": 1.0, "contact_time": 1.0e-5},
-    "until": {"collisions_per_particle": 60_000},
+    "until": {"collisions_per_particle": 150_000},  # some seconds
     "samples": {"count": 10},
     "distance_factors": [1.05, 1.1],
     "checkpoint_seconds": 0.2,
 }
-MANY = 102
+MANY = int(os.environ.get("INTERRUPTIONS", 102))
 """Interruptions of the long test, as many of each kind."""
 
 SEED = int(os.environ.get("INTERRUPTION_SEED", random.SystemRandom().randrange(10**6)))
@@ -72,68 +73,55 @@ def log_of_run(project: Project) -> str:
     return "".join(path.read_text() for path in project.folder.glob("results/logs/simulate/*.log"))
 
 
-def start(project: Project, *words: object) -> subprocess.Popen[bytes]:
-    with open(project.folder / "said.txt", "w") as said:
-        command = project.command(*(words or TARGET))
-        return subprocess.Popen(
-            command, env=project.environment, cwd=project.folder, stdout=said, stderr=said, start_new_session=True
-        )
+def checkpoints(project: Project) -> dict[Path, float]:
+    """When each of them was written."""
+    return {path: path.stat().st_mtime for path in project.folder.glob("results/checkpoints/*.npz")}
 
 
-def jobs_of(pid: int) -> list[int]:
-    try:
-        return [int(job) for path in Path(f"/proc/{pid}/task").glob("*/children") for job in path.read_text().split()]
-    except OSError:
-        return []
-
-
-def wait_for(condition: Callable[[], object], seconds: float = 300.0) -> None:
-    end = time.monotonic() + seconds
-    while not condition():
-        assert time.monotonic() < end, "waited in vain"
-        time.sleep(0.02)
-
-
-def interrupt(build: subprocess.Popen[bytes], kind: str, rng: random.Random) -> None:
-    """Do it, and wait for the end of the build."""
+def interrupt(build: subprocess.Popen[bytes], kind: str, rng: random.Random) -> bool:
+    """Do it, and wait for the end of the build; whether it came in time: a build that was at its end has to be a good one."""
     if kind.endswith("a job") or kind.startswith("job"):
         wait_for(lambda: jobs_of(build.pid) or build.poll() is not None)
-        for job in rng.sample(jobs := jobs_of(build.pid), min(1, len(jobs))):
-            os.kill(job, signal.SIGKILL if kind == "job killed" else signal.SIGTERM)
-    elif build.poll() is None:
-        if kind == "all killed":
+    in_time = build.poll() is None
+    with suppress(ProcessLookupError):  # it was at its end
+        if kind.endswith("a job") or kind.startswith("job"):
+            for job in rng.sample(jobs := jobs_of(build.pid), min(1, len(jobs))):
+                os.kill(job, signal.SIGKILL if kind == "job killed" else signal.SIGTERM)
+        elif kind == "all killed":
             os.killpg(build.pid, signal.SIGKILL)
         elif kind == "Ctrl-C":
             os.killpg(build.pid, signal.SIGINT)
         else:
             build.send_signal(signal.SIGKILL if kind == "main process killed" else signal.SIGTERM)
     build.wait(300)
+    assert in_time or build.returncode == 0
+    return in_time
+
+
+def interrupt_with_a_checkpoint(project: Project, kind: str, rng: random.Random) -> bool:
+    """Build, and interrupt up to .3 s after a checkpoint was written; whether it came in time. What is there is taken up."""
+    before = checkpoints(project)
+    build = project.start(*TARGET)
+    wait_for(lambda: checkpoints(project).items() - before.items() or build.poll() is not None)
+    time.sleep(rng.uniform(0, 0.3))
+    in_time = interrupt(build, kind, rng)
+    assert not before or "goes on from a checkpoint" in log_of_run(project)
+    assert "Traceback" not in (project.folder / "said.txt").read_text()
+    return in_time
 
 
 @pytest.mark.timeout(1800)
-def test_interrupted_five_times_and_more_it_ends_with_the_same_files(whole: Project, fresh: Project) -> None:
-    rng, resumed, cut = random.Random(SEED), 0, 0
+def test_interrupted_in_every_way_it_ends_with_the_same_files(whole: Project, fresh: Project) -> None:
+    rng = random.Random(SEED)
     print(f"INTERRUPTION_SEED={SEED}")
     for kind in rng.sample(KINDS, len(KINDS)):
-        before = {path: path.stat().st_mtime for path in fresh.folder.glob("results/checkpoints/*.npz")}
-        build = start(fresh)
-
-        def has_saved(before: dict[Path, float] = before, build: subprocess.Popen[bytes] = build) -> bool:
-            there = {path: path.stat().st_mtime for path in fresh.folder.glob("results/checkpoints/*.npz")}
-            return there.items() - before.items() or build.poll() is not None
-
-        wait_for(has_saved)
-        time.sleep(rng.uniform(0, 0.3))
-        cut += build.poll() is None
-        interrupt(build, kind, rng)
-        resumed += "goes on from a checkpoint" in log_of_run(fresh)
+        while not interrupt_with_a_checkpoint(fresh, kind, rng):
+            shutil.rmtree(fresh.folder / "results")  # it came to its end before
         assert contents(fresh).items() <= contents(whole).items(), kind
-        assert "Traceback" not in (fresh.folder / "said.txt").read_text(), kind
     fresh.build(*TARGET)
     assert contents(fresh) == contents(whole)
-    assert cut >= 5 and resumed >= 4
     left = [path.name for path in fresh.folder.glob("results/*/.*") if path.name != ".lock"]
-    assert left == [] and list(fresh.folder.glob("results/checkpoints/*")) == []
+    assert left == [] and checkpoints(fresh) == {}
 
 
 @pytest.mark.full
@@ -144,17 +132,57 @@ def test_interrupted_at_any_moment_the_same_command_ends_with_the_same_files(who
     begun = time.monotonic()
     fresh.build(*TARGET)
     duration = time.monotonic() - begun
-    cut = dict.fromkeys(KINDS, 0)
+    cut, resumed = dict.fromkeys(KINDS, 0), 0
     while sum(cut.values()) < MANY:
         kind = min(cut, key=cut.__getitem__)
         shutil.rmtree(fresh.folder / "results")
-        build = start(fresh)
-        time.sleep(rng.uniform(0, 0.9 * duration))
-        cut[kind] += build.poll() is None
-        interrupt(build, kind, rng)
-        fresh.build(*TARGET)
+        begun, build = time.monotonic(), fresh.start(*TARGET)
+        with suppress(subprocess.TimeoutExpired):
+            build.wait(rng.uniform(0, duration))
+        cut[kind] += (in_time := interrupt(build, kind, rng))
+        duration = 1.1 * duration if in_time else time.monotonic() - begun  # builds take longer or shorter by what else runs
+        assert "Traceback" not in fresh.build(*TARGET)
+        resumed += "goes on from a checkpoint" in log_of_run(fresh)
         assert contents(fresh) == contents(whole), kind
-    print(cut)
+        print(sum(cut.values()), kind, "in time" if in_time else "too late", flush=True)
+    print(cut, "of them went on from a checkpoint:", resumed)
+
+
+FAULTY_WRITE = "fault(path, temporary, 'before'); os.replace(temporary, path); fault(path, temporary, 'after')"
+FAULT = """
+def fault(path, temporary, moment):
+    folder, how, when = os.environ.get("FAULT", "no where ever").split()
+    if path.parent.name == folder and moment == when:
+        if how == "half":
+            os.truncate(temporary, temporary.stat().st_size // 2)
+        os.kill(os.getpid(), 9)
+
+
+def _free"""
+
+
+@pytest.mark.full
+@pytest.mark.timeout(1800)
+@pytest.mark.parametrize("how", ["half before", "whole before", "whole after"])
+def test_a_job_killed_at_the_boundary_of_a_write(
+    whole: Project, fresh: Project, how: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """When its file is half written, when it is whole and has not its name yet, when it has: for every kind of file."""
+    files, target = "src/granugas/storage/files.py", ("--", "results/figures/study_small.png", *TARGET[1:])
+    with (
+        whole.edited(files, "os.replace(temporary, path)", FAULTY_WRITE),
+        whole.edited(files, "\ndef _free", FAULT),
+    ):
+        for folder in (*FOLDERS, "checkpoints", "figures"):
+            shutil.rmtree(fresh.folder / "results", ignore_errors=True)
+            monkeypatch.setenv("FAULT", f"{folder} {how}")
+            done = fresh.snakemake(*target)
+            assert done.returncode == 1 and "killed, perhaps for lack of memory" in done.stdout, folder
+            assert contents(fresh).items() <= contents(whole).items(), folder
+            monkeypatch.delenv("FAULT")
+            fresh.build(*target)
+            assert contents(fresh) == contents(whole), folder
+            assert [path for path in fresh.folder.glob("results/*/.*") if path.name != ".lock"] == [], folder
 
 
 def test_cut_off_files_and_dates_of_the_future_are_repaired_by_the_same_call(whole: Project, copied: Project) -> None:
@@ -171,6 +199,22 @@ def test_cut_off_files_and_dates_of_the_future_are_repaired_by_the_same_call(who
     assert "Traceback" not in said
     assert contents(copied) == contents(whole)
     assert copied.jobs(*TARGET) == {}
+
+
+@pytest.mark.parametrize(
+    ("folder", "jobs"),
+    [
+        ("states", {}),
+        ("runs", {"simulate": 1, "clusters": 1, "pool": 1}),
+        ("clusters", {"clusters": 1, "pool": 1}),
+        ("studies", {"pool": 1}),
+    ],
+)
+def test_of_what_is_whole_nothing_is_made_again(whole: Project, copied: Project, folder: str, jobs: dict[str, int]) -> None:
+    path = the_file(copied, folder)
+    os.truncate(path, path.stat().st_size // 2)
+    assert jobs_announced(copied.build()) == jobs | {"figure_study_small": 1}  # which was not built before
+    assert folder == "states" or contents(copied) == contents(whole)
 
 
 def flip(path: Path) -> None:
@@ -203,7 +247,7 @@ def test_a_garbled_file_is_told_and_repaired(whole: Project, copied: Project, fo
 @pytest.mark.full
 @pytest.mark.parametrize("damage", ["garbled", "another version"])
 def test_a_checkpoint_that_cannot_be_used_is_told_and_not_taken(whole: Project, fresh: Project, damage: str) -> None:
-    build = start(fresh)
+    build = fresh.start(*TARGET)
     wait_for(lambda: list(fresh.folder.glob("results/checkpoints/*.npz")))
     interrupt(build, "SIGTERM", random.Random(0))
     (path,) = fresh.folder.glob("results/checkpoints/*.npz")
@@ -277,22 +321,26 @@ def test_a_job_without_memory_says_so_and_the_others_go_on(editable_copy: Projec
     assert ("Unable to allocate 2.00 GiB" if end == "no memory" else "killed, perhaps for lack of memory") in reasons
 
 
-def in_a_namespace(project: Project, script: str) -> subprocess.CompletedProcess[str]:
+def in_a_namespace(script: str, **options: object) -> subprocess.CompletedProcess[str]:
     """Run a shell script that may mount file systems, which nobody else sees and which end with it."""
     if subprocess.run(["unshare", "-rm", "mount", "-t", "tmpfs", "x", "/mnt"], capture_output=True).returncode:
         pytest.skip("no file systems can be mounted here (unshare -rm)")
+    return subprocess.run(["unshare", "-rm", "sh", "-c", script], capture_output=True, text=True, **options)
+
+
+def build_in_a_namespace(project: Project, script: str) -> subprocess.CompletedProcess[str]:
+    """Run it there in the folder of the project; BUILD in it is the command."""
     command = " ".join(map(str, project.command(*TARGET)))
-    script = script.replace("BUILD", f"{command} 2>&1")
-    return subprocess.run(
-        ["unshare", "-rm", "sh", "-c", script], cwd=project.folder, env=project.environment, capture_output=True, text=True
-    )
+    return in_a_namespace(script.replace("BUILD", f"{command} 2>&1"), cwd=project.folder, env=project.environment)
 
 
 @pytest.mark.full
 def test_a_full_disk_is_told_and_more_room_repairs_it(whole: Project, fresh: Project) -> None:
     (fresh.folder / "results").mkdir()
     mounted = "mount -t tmpfs -o size=60k x results; "
-    done = in_a_namespace(fresh, mounted + "BUILD; df results; mount -o remount,size=50m results; BUILD; cp -r results copy")
+    done = build_in_a_namespace(
+        fresh, mounted + "BUILD; df results; mount -o remount,size=50m results; BUILD; cp -r results copy"
+    )
     first, _, second = done.stdout.partition("tmpfs" if "tmpfs" in done.stdout else "x ")
     assert "not written" in first and "0 MB are free" in first and "Traceback" not in done.stdout
     assert "Finished jobid" in second
@@ -305,7 +353,7 @@ def test_a_full_disk_is_told_and_more_room_repairs_it(whole: Project, fresh: Pro
 @pytest.mark.full
 def test_a_folder_that_is_read_only_is_told_in_a_line(fresh: Project) -> None:
     (fresh.folder / "results").mkdir()
-    done = in_a_namespace(fresh, "mount -t tmpfs x results; mount -o remount,ro results; BUILD")
+    done = build_in_a_namespace(fresh, "mount -t tmpfs x results; mount -o remount,ro results; BUILD")
     assert done.returncode == 1 and "Traceback" not in done.stdout
     assert "output = 'results': nothing can be written there (Read-only file system)" in done.stdout
 
@@ -332,6 +380,19 @@ def test_many_processes_fill_a_cold_cache_at_once(cold: dict[str, str], tmp_path
         for job in jobs:
             assert job.communicate()[1] == b"" and job.returncode == 0
         assert list((tmp_path / "cache/granugas").rglob("*.nbc"))
+
+
+@pytest.mark.parametrize("options", ["ro", "size=1m"], ids=["read-only or missing", "full"])
+@pytest.mark.parametrize("home", ["home", "home/of/nobody"])
+def test_a_home_that_keeps_no_kernels_is_passed_over(whole: Project, tmp_path: Path, home: str, options: str) -> None:
+    for name in ("home", "temporary"):
+        (tmp_path / name).mkdir()
+    places = {"HOME": str(tmp_path / home), "TMPDIR": str(tmp_path / "temporary")}
+    environment = {k: v for k, v in whole.environment.items() if k not in ("NUMBA_CACHE_DIR", "XDG_CACHE_HOME")} | places
+    script = f"mount -t tmpfs -o {options} x {tmp_path}/home && exec {sys.executable} -c '{COMPILE_LITTLE}'"
+    done = in_a_namespace(script, cwd=tmp_path, env=environment)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+    assert list((tmp_path / "temporary").rglob("*.nbc"))
 
 
 @pytest.mark.full

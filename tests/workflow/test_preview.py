@@ -11,7 +11,7 @@ from granugas.studies import figures_in
 FULL, REDUCED = (ROOT / f"config/{name}.yaml" for name in ("config", "reduced"))
 
 
-@pytest.mark.timeout(600)
+@pytest.mark.timeout(1800)
 def test_the_preview_builds_every_figure_and_keeps_to_physics(project: Project) -> None:
     said = project.build("--configfile", FULL, REDUCED, "--", "all", "check")
     preview = project.folder / "results/preview"

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 import yaml
-from hypothesis import given, settings
+from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from snakemake.utils import update_config
 from workflow.project import ROOT, Project
@@ -358,11 +358,10 @@ ANYTHING = {
     "key": st.none() | st.sampled_from(KEYS),
     "value": JUNK | st.lists(JUNK, max_size=3) | st.dictionaries(st.sampled_from(KEYS), JUNK, max_size=3),
 }
-test_anything_at_all = settings(max_examples=100, deadline=None, print_blob=True)(
-    given(**ANYTHING)(_taken_or_refused_in_one_line)
-)
+PATIENT = settings(deadline=None, print_blob=True, suppress_health_check=[HealthCheck.too_slow])  # on a busy machine
+test_anything_at_all = settings(PATIENT, max_examples=100)(given(**ANYTHING)(_taken_or_refused_in_one_line))
 test_anything_at_all_often = pytest.mark.full(
-    settings(max_examples=2000, deadline=None, print_blob=True)(given(**ANYTHING)(_taken_or_refused_in_one_line))
+    settings(PATIENT, max_examples=2000)(given(**ANYTHING)(_taken_or_refused_in_one_line))
 )
 
 

@@ -20,9 +20,8 @@ CONTACT_TIME = 1e-5
 @styled
 def draw(data: dict[str, xr.Dataset]) -> Figure:
     """(a) Share of runs that collapse, (b) r_c and Eq. 22 against N, (c) rate of the disks that collapse against t* - t."""
-    figure = Figure(figsize=(PAGE, 2.9))
-    panels = share, edge, rate = figure.subplots(1, 3)
-    share.set(xlabel="$r$", ylabel="share of runs that collapse", xlim=(0.1, 1.15))
+    panels = share, edge, rate = (figure := Figure(figsize=(PAGE, 2.9))).subplots(1, 3)
+    share.set(xlabel="$r$   (filled: Eq. (22))", ylabel="share of runs that collapse", xlim=(0.1, 1.15))
     edge.set(xscale="log", yscale="log", xlabel="$N$", ylabel="$1 - r_c$")
     edge.set_yticks([0.05, 0.1, 0.2, 0.5], ["0.05", "0.1", "0.2", "0.5"])
     edge.yaxis.set_minor_formatter("")
@@ -38,17 +37,18 @@ def draw(data: dict[str, xr.Dataset]) -> Figure:
                 look = {"color": colour, "marker": marker, "linewidth": 0.8}
                 share.plot(r, collapsed.mean(axis=0), label=f"${n}$", markerfacecolor="none", **look)
                 share.plot(collapse_restitution(n, nu), 0.5, **look, markersize=5)
+    share.set_xticks([0.2, 0.4, 0.6, 0.8, 1.0])
     share.legend(title="$N$", loc="upper right")
     sizes = np.geomspace(min(row[1] for row in found) / 1.3, max(row[1] for row in found) * 1.3)
     edge.plot(sizes, 1 - collapse_restitution(sizes, nu), **THEORY, label="Eq. (22)")
     for limit, colour, marker in zip(WITHIN, ("C5", "C0", "C1"), MARKERS, strict=False):
         n, value, low, high = np.transpose([row[1:] for row in found if row[0] == limit])
-        look = {"color": colour, "marker": marker, "linewidth": 0.8, "capsize": 1.5, "label": f"within ${limit}$"}
+        look = {"color": colour, "marker": marker, "linewidth": 0.8, "capsize": 1.5, "label": f"within $C/N = {limit}$"}
         edge.errorbar(n, value, [value - high, low - value], **look)
     edge.legend()
     approach = data["approach"].transpose("restitution", "realization", "collisions_left")
-    t_e, decades = 1 / float(approach["enskog_rate"]), 10.0 ** np.arange(-14, 2)
     rate.set(xscale="log", yscale="log", xlabel="$(t^* - t)/t_E$", ylabel=r"collision rate $\times\, t_E$")
+    t_e, decades = 1 / float(approach["enskog_rate"]), 10.0 ** np.arange(-14, 2)
     for r, colour in zip(approach["restitution"].values, shades(approach.sizes["restitution"]), strict=True):
         of_r = approach.sel(restitution=r)
         for left, disks, label in zip(of_r["time_left"], of_r["disks_involved"], [f"$r = {r:g}$", *[None] * 99], strict=False):

@@ -48,8 +48,12 @@ def draw(data: dict[str, xr.Dataset]) -> Figure:
             energy.fill_between(tau[0], relative.min("realization"), relative.max("realization"), color="0.85", linewidth=0)
             for (change, line), colour in zip(LINES.items(), ("C2", "C3"), strict=True):
                 copies = (gas["copy_kinetic_energy"] / mean).isel(realization=0).sel(change=change)
-                energy.plot(tau[0], copies.transpose("stop", "copy"), color=colour, linestyle=line, linewidth=0.6)
-            energy.plot(tau[0], relative[0], color="black")
+                look = {"color": colour, "linestyle": line, "linewidth": 0.6}
+                energy.plot(tau[0], copies.transpose("stop", "copy"), **look)[0].set_label(f"its copies: {change}")
+            energy.plot(tau[0], relative[0], color="black", label=f"one run, $r = {r:g}$")
+            energy.legend(loc="upper left")
+    for change, line in LINES.items():
+        parting[0].plot([], [], color="0.3", linestyle=line, label=f"copies: {change}")
     for axes in (*parting, spread):
         axes.legend(loc="lower right")
     mark_panels(*panels)

@@ -18,6 +18,9 @@ from granugas.storage.variables import VARIABLES, describe
 
 logger = logging.getLogger(__name__)
 
+STOPPED = ("inelastic_collapse", "max_seconds", "max_collisions")
+"""Values of `stop_reason` of runs that did not come to the end that was asked for."""
+
 Place = dict[str, list[Any]]
 """The value of each grid key that a part has; several where one trajectory serves them all."""
 
@@ -45,7 +48,6 @@ def pool(parts: Iterable[xr.Dataset], keys: Sequence[str]) -> xr.Dataset:
     if not placed:
         raise ValueError("pool: no parts")
     places = [place for place, _ in placed]
-    _tell_collapses(placed)
     parts, attributes = _split_attributes([part for _, part in placed], grid)
 
     axes = {key: sorted({value for place in places for value in place[key]}) for key in grid}
@@ -59,6 +61,16 @@ def pool(parts: Iterable[xr.Dataset], keys: Sequence[str]) -> xr.Dataset:
     names = dict.fromkeys(name for part in parts for name in part.data_vars if name not in grid)
     pooled = {name: _fill(name, parts, cells, grid, sizes, coordinates) for name in names}
     return describe(xr.Dataset(pooled, {**coordinates.coords, **axes}, attributes))
+
+
+def tell_stops(pooled: xr.Dataset) -> None:
+    """Say in the log how many runs of a study stopped before their end: a line for each reason."""
+    reasons, times = np.ravel(pooled["stop_reason"]), np.ravel(pooled["stop_time"])
+    for reason in STOPPED:
+        at = times[reasons == reason]
+        if len(at):
+            words = "%s: %d of %d runs stopped before their end, the first at t = %g s, NaN after it"
+            logger.warning(words, reason, len(at), np.count_nonzero(reasons), at.min())
 
 
 def realization_of(pooled: xr.Dataset, realization: int) -> xr.Dataset:
@@ -92,14 +104,6 @@ def _refuse_duplicates(cells: list[list[Cell]], axes: dict[str, list[Any]]) -> N
     if times > 1:
         where = ", ".join(f"{key} = {values[i]}" for (key, values), i in zip(axes.items(), position, strict=True))
         raise ValueError(f"{where}: {times} parts have this place in the pooled dataset, allowed is one")
-
-
-def _tell_collapses(placed: list[tuple[Place, xr.Dataset]]) -> None:
-    for place, part in placed:
-        if "stop_reason" in part:
-            where = ", ".join(f"{key} = {plain(values)}" for key, values in place.items())
-            for time in np.ravel(part["stop_time"])[np.ravel(part["stop_reason"]) == "inelastic_collapse"]:
-                logger.warning("%s: inelastic collapse at t = %g s, NaN after it", where, time)
 
 
 def _split_attributes(parts: list[xr.Dataset], grid: Sequence[str]) -> tuple[list[xr.Dataset], dict[str, Any]]:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from granugas.storage.pooling import pool
+from granugas.storage.pooling import pool, tell_stops
 
 BOTH = {"n_particles": 3, "restitution": 0.8}
 
@@ -144,11 +144,19 @@ def test_attributes_of_a_variable_stay_where_all_runs_agree(make_run):
     assert pooled["kinetic_energy"].attrs["window"] == "4 samples" and "number" not in pooled["kinetic_energy"].attrs
 
 
-def test_a_collapse_is_said_aloud(make_run, caplog):
-    pool([make_run(0), make_run(1).assign(stop_reason="inelastic_collapse", stop_time=0.25)], ["restitution"])
+def test_runs_that_stopped_are_counted_aloud(make_run, caplog):
+    ends = ["time", "inelastic_collapse", "max_seconds", "inelastic_collapse"]
+    parts = [make_run(k).assign(stop_reason=end, stop_time=0.5 - 0.1 * k) for k, end in enumerate(ends)]
+    tell_stops(pool([*parts, make_run(0, restitution=0.8)], ["restitution"]))
     assert [record.getMessage() for record in caplog.records] == [
-        "restitution = 0.4, realization = 1: inelastic collapse at t = 0.25 s, NaN after it"
+        "inelastic_collapse: 2 of 5 runs stopped before their end, the first at t = 0.2 s, NaN after it",
+        "max_seconds: 1 of 5 runs stopped before their end, the first at t = 0.3 s, NaN after it",
     ]
+
+
+def test_of_runs_that_came_to_their_end_nothing_is_said(make_run, caplog):
+    tell_stops(pool([make_run(0), make_run(1).assign(stop_reason="collisions_per_particle")], ["restitution"]))
+    assert caplog.records == []
 
 
 def test_what_cannot_be_pooled_is_refused(make_run):
