@@ -251,6 +251,17 @@ VARIABLES = {
     "separation": Variable("1", "distance of a copy from its run, root mean square over the particles, by the diameter"),
     "copy_kinetic_energy": Variable("1", "kinetic energy of a copy by its initial value", "K = E/E(0)"),
     "copy_collisions_per_particle": Variable("1", "collisions of a particle in a copy since t = 0", "C/N"),
+    # a column of beads that hits a wall
+    "wall": Variable(None, "coefficient of restitution of the wall"),
+    "critical_restitution": Variable("1", "coefficient of restitution below which a column collapses", "r_c", "A section 2.1"),
+    "depth": Variable("1", "dissipation of a contact by the critical one", "(1 - r)/(1 - r_c)", "A section 2.1"),
+    "column_collisions": Variable("1", "collisions of the beads of a column with each other until they have parted", "C"),
+    "energy_left": Variable("1", "kinetic energy of a column after its impact by the one before", "E/E(0)"),
+    # every collision model from one start
+    "model": Variable(None, "collision model"),
+    "place": Variable(None, "where it is asked whether it collapses"),
+    "collapse_time": Variable("s", "time of the inelastic collapse, infinite where there was none", "t*", "A section 2.1"),
+    "place_collisions": Variable("1", "collisions of a particle until the end of the run", "C/N"),
 }
 
 

@@ -18,7 +18,8 @@ def gas_of() -> Callable[..., Gas]:
 
     def make(position, velocity, box, **effects) -> Gas:
         position, velocity = np.array(position, float), np.array(velocity, float)
-        scene = Scene(n_particles=len(position), diameter=1.0, restitution=1.0, contact_time=0.0)
+        n, dimensions = position.shape
+        scene = Scene(n_particles=n, diameter=1.0, restitution=1.0, contact_time=0.0, dimensions=dimensions)
         engine = Engine(scene, at_rest(position, velocity, box), **effects)
         kept.append(engine)  # its arrays are the memory of the gas
         return bundle(engine.arrays, engine.effects)
