@@ -9,13 +9,15 @@ from granugas.analysis.growth import growth_regime, local_exponent
 from granugas.analysis.statistics import fit_power_law
 from granugas.plotting import PAGE, band, grid_points, mark_panels, styled
 
-STUDIES = ("growth_smooth", "growth_rough")
+STUDIES = ("growth_smooth", "growth_rough", "growth_viscoelastic")
 FACTOR = 1.1
 """S_c."""
 
 
 def named(scene: dict) -> str:
     """What distinguishes a gas."""
+    if scene["material"] == "viscoelastic":
+        return "viscoelastic"
     rough = scene["tangential_restitution"] > -1 and scene["friction"] > 0
     beta = rf", $\beta = {scene['tangential_restitution']:g}$" if rough else ""
     mu = rf", $\mu = {scene['friction']:g}$" if rough and np.isfinite(scene["friction"]) else ""
