@@ -251,6 +251,19 @@ VARIABLES = {
     "separation": Variable("1", "distance of a copy from its run, root mean square over the particles, by the diameter"),
     "copy_kinetic_energy": Variable("1", "kinetic energy of a copy by its initial value", "K = E/E(0)"),
     "copy_collisions_per_particle": Variable("1", "collisions of a particle in a copy since t = 0", "C/N"),
+    # effects and models, one by one
+    "effect": Variable(None, "effect or model"),
+    "scene_keys": Variable(None, "keys by which a scene names the effect, beyond elastic disks"),
+    "check": Variable(None, "number that is compared with theory"),
+    "momentum_drift": Variable("1", "change of the momentum along axes without walls, by N v_rms"),
+    "energy_balance": Variable("1", "change of all energy, what was lost or put in included, by E(0)"),
+    "measured": Variable("1", "number that was measured"),
+    "expected": Variable("1", "what theory expects of it"),
+    "allowed": Variable("1", "largest difference of the two that is in agreement"),
+    "code_lines": Variable("1", "lines of code that are the effect, without comments and docstrings"),
+    "repetition": Variable("1", "number of the repetition"),
+    "cpu_per_collision": Variable("ns", "processor time of a collision"),
+    "cpu_added": Variable("ns", "processor time of a collision beyond that of elastic disks in the same repetition"),
 }
 
 
