@@ -45,7 +45,7 @@ def test_there_is_a_row_for_each_effect_file():
 def test_scenes_call_for_the_files_of_their_rows(row):
     called = modules_of(row.scene)
     assert all(f"{EFFECTS}.{name}" in called for name in row.files if "." not in name)
-    assert all(effects.code_lines(name) > 5 for name in row.files)
+    assert all(effects.code_lines(name) >= 5 for name in row.files)
 
 
 def test_a_number_beside_theory_is_told(measured):
