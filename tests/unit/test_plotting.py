@@ -87,8 +87,9 @@ def needed_by(studies, realizations, contact_times):
 
 @cache
 def measured(experiment):
-    """The experiment's dataset: these take seconds, so they need not be made up."""
-    return import_module(f"granugas.experiments.{experiment}").measure()
+    """The experiment's dataset, by its small plan if it has one: these take seconds, so they need not be made up."""
+    module = import_module(f"granugas.experiments.{experiment}")
+    return module.measure(*([module.SMALL] if hasattr(module, "SMALL") else []))
 
 
 def texts(figure):

@@ -161,6 +161,51 @@ def rough_temperature_ratio(restitution: ArrayLike, tangential_restitution: Arra
     return (np.sqrt(half**2 + k * b**2) - half) / b
 
 
+def friction_loss(tangential_restitution: float, friction: float, restitution: float) -> float:
+    """Energy by kT that the rubbing of two disks dissipates in a collision, on average, while no disk spins yet.
+
+    Maxwellian: u_n^2 / 4T is distributed exponentially, u_t is normal of variance 2T (T = kT/m); surfaces stick where the
+    tangential impulse that takes is no more than mu times the normal one, and slide beyond.
+    """
+    q, share = INERTIA[2], (np.arange(1000) + 0.5) / 1000
+    u_n = 2 * np.sqrt(-np.log(share))[:, np.newaxis]
+    u_t = np.linspace(0, 10, 2001)
+    weight = np.exp(-(u_t**2) / 4)
+    change = np.minimum(q * (1 + tangential_restitution) / (1 + q) * u_t, friction * (1 + restitution) * u_n)
+    loss = (u_t * change - (1 + 1 / q) / 2 * change**2) / 2
+    return float((loss.mean(axis=0) @ weight) / weight.sum())
+
+
+# Coefficients of restitution that depend on the normal relative velocity u (A section 3.iv).
+
+
+def viscoelastic_restitution(speed: ArrayLike, viscosity: float) -> Numbers:
+    """r = 1 - C1 x + 3/5 C1^2 x^2 with x = A u^(1/5), C1 = 1.15344; `speed` u in m/s, `viscosity` A in (s/m)^(1/5)."""
+    x = 1.15344 * viscosity * np.asarray(speed) ** 0.2
+    return 1 - x + 0.6 * x**2
+
+
+def plastic_restitution(speed: ArrayLike, restitution: float, yield_velocity: float) -> Numbers:
+    """`restitution` up to the yield velocity (m/s), above it as u^(-1/4)."""
+    return restitution * np.minimum(1, (yield_velocity / np.asarray(speed)) ** 0.25)
+
+
+def cooling_by_velocity(tau: ArrayLike, restitution: Callable[[Numbers], Numbers], temperature: float) -> Numbers:
+    """K of a homogeneous gas of disks: d ln K / d tau = -sqrt(K)/2 <(1 - r(u)^2) u^2> / <u^2> over Maxwellian collisions.
+
+    Args:
+        tau: up to where K has fallen to 1e-12.
+        restitution: r(u), u in m/s.
+        temperature: kT/m at t = 0 in (m/s)^2; u^2 / 4T is distributed exponentially.
+    """
+    y, weight = np.polynomial.laguerre.laggauss(30)
+    log_k = np.linspace(0, np.log(1e-12), 4001)
+    r = restitution(2 * np.sqrt(y * temperature * np.exp(log_k)[:, np.newaxis]))
+    slowness = 2 * np.exp(-log_k / 2) / ((1 - r**2) @ (weight * y))
+    passed = np.concatenate([[0], np.cumsum((slowness[1:] + slowness[:-1]) / 2) * (log_k[0] - log_k[1])])
+    return np.exp(np.interp(tau, passed, log_k))
+
+
 # One ball that bounces on a plate under gravity g (A section 4.2). v_1 is its speed before the first hit, t_1 = 2 v_1 / g.
 # Energies are per mass m.
 
@@ -328,6 +373,29 @@ def dissipation_factor(contact_time: ArrayLike, rate: ArrayLike, area_fraction: 
     With the q of `loss_shielding`, so the slope for t_c -> 0 is right. A section 7 expects 1 - c_e.
     """
     return 1 - elastic_collision_fraction(loss_shielding(area_fraction) * np.asarray(contact_time), rate)
+
+
+def elastic_in_company(area_fraction: ArrayLike, gap: ArrayLike) -> Numbers:
+    """Share of collisions with a third disk nearer to a partner than `gap` (by d, << 1): critical distance (A section 3.v).
+
+    2 n g(2a) d gap by angle outside the shadow, with the number density n: the disks that lie next to either partner.
+    """
+    return -np.expm1(-_neighbours(area_fraction, gap) * _outside_shadow(np.ones_like, area_fraction))
+
+
+def elastic_within(area_fraction: ArrayLike, distance: ArrayLike) -> Numbers:
+    """c_e of the TC model with t_c(u) = `distance` (by d, << 1) / u, that is alpha = 1 (A section 3, end).
+
+    Of the disks next to a partner (`elastic_in_company`) those that approach, however slowly: (1 + rho)/2 at the angle theta,
+    as the partner's velocity was chosen by the speed of approach of the collision before; rho of `rate_after_collision`.
+    """
+    approach = _outside_shadow(lambda angle: (1 - np.cos(angle) / 2) / 2, area_fraction)
+    return -np.expm1(-_neighbours(area_fraction, distance) * approach)
+
+
+def _neighbours(area_fraction: ArrayLike, gap: ArrayLike) -> Numbers:
+    """Disks within a gap (by d, << 1) of either partner if these hid no direction: 2 n g(2a) 2 pi d^2 gap = 16 nu g gap."""
+    return 16 * np.asarray(area_fraction) * contact_value(area_fraction) * np.asarray(gap)
 
 
 def _outside_shadow(function: Callable[[Numbers], Numbers], area_fraction: ArrayLike) -> Numbers:

@@ -262,6 +262,19 @@ VARIABLES = {
     "place": Variable(None, "where it is asked whether it collapses"),
     "collapse_time": Variable("s", "time of the inelastic collapse, infinite where there was none", "t*", "A section 2.1"),
     "place_collisions": Variable("1", "collisions of a particle until the end of the run", "C/N"),
+    # effects and models, one by one
+    "effect": Variable(None, "effect or model"),
+    "scene_keys": Variable(None, "keys by which a scene names the effect, beyond elastic disks"),
+    "check": Variable(None, "number that is compared with theory"),
+    "momentum_drift": Variable("1", "change of the momentum along axes without walls, by N v_rms"),
+    "energy_balance": Variable("1", "change of all energy, what was lost or put in included, by E(0)"),
+    "measured": Variable("1", "number that was measured"),
+    "expected": Variable("1", "what theory expects of it"),
+    "allowed": Variable("1", "largest difference of the two that is in agreement"),
+    "code_lines": Variable("1", "lines of code that are the effect, without comments and docstrings"),
+    "repetition": Variable("1", "number of the repetition"),
+    "cpu_per_collision": Variable("ns", "processor time of a collision"),
+    "cpu_added": Variable("ns", "processor time of a collision beyond that of elastic disks in the same repetition"),
 }
 
 

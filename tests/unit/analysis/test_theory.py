@@ -235,3 +235,45 @@ def test_cooling_in_other_dimensions():
         energy = theory.energy_after_collisions(collisions, 0.5, dimensions)
         assert energy == pytest.approx(float(theory.homogeneous_cooling(30.0, 0.5, dimensions)))
     assert [theory.energy_of_elastic_particles(d) for d in (1, 2, 3)] == [3 / 2, 5 / 4, 7 / 6]
+
+
+def test_third_disks_that_are_near_by_monte_carlo():
+    """Those next to one of the partners of a collision, outside the shadow of the other: all, and those that approach it."""
+    rng = np.random.default_rng(7)
+    own, others, tangential, third = rng.normal(size=(4, 2_000_000))
+    angle = rng.uniform(0, np.pi, own.size)
+    meet, outside = np.maximum(own - others, 0), angle > np.pi / 3
+    nu, gap = 1e-4, 1e-3
+    neighbours = 2 * (4 * nu / np.pi) * theory.contact_value(nu) * 2 * np.pi * gap  # 2 n g 2 pi d gap
+    assert theory.elastic_in_company(nu, gap) / neighbours == pytest.approx(np.average(outside, weights=meet), rel=2e-3)
+    approach = others * np.cos(angle) + tangential * np.sin(angle) > third
+    assert theory.elastic_within(nu, gap) / neighbours == pytest.approx(np.average(approach & outside, weights=meet), rel=3e-3)
+    assert theory.elastic_in_company(0.2, 10) == pytest.approx(1)
+
+
+@pytest.mark.parametrize("mu", [0.2, 1e9])
+def test_friction_loss_by_monte_carlo(mu):
+    """Two disks that do not spin, hit by hit (Huthmann & Zippelius): energies of translation and rotation before and after."""
+    rng = np.random.default_rng(7)
+    u_n, u_t = 2 * np.sqrt(rng.exponential(size=1_000_000)), np.sqrt(2) * rng.normal(size=1_000_000)
+    r, beta, q = 0.9, 0.5, 0.5
+    impulse = np.clip(q * (1 + beta) / (2 * (1 + q)) * u_t, -mu * (1 + r) * u_n / 2, mu * (1 + r) * u_n / 2)
+    after = u_t - 2 * impulse
+    spin_energy = 2 * (impulse**2 / (2 * q))  # (impulse a)^2 / (2 q a^2) of each
+    assert theory.friction_loss(beta, mu, r) == pytest.approx(np.mean((u_t**2 - after**2) / 4 - spin_energy), rel=5e-3)
+
+
+def test_coefficients_that_depend_on_the_velocity():
+    assert theory.viscoelastic_restitution(0.0, 0.3) == 1
+    x = 5 / (6 * 1.15344)
+    np.testing.assert_allclose(theory.viscoelastic_restitution([0.9, 1.0, 1.1], x).min(), 7 / 12, rtol=1e-12)
+    np.testing.assert_allclose(theory.plastic_restitution([0.1, 0.2, 3.2], 0.8, 0.2), [0.8, 0.8, 0.4])
+
+
+def test_cooling_by_velocity():
+    """A constant coefficient cools by A Eq. 23; viscoelastic disks in the end as tau^(-5/3)."""
+    tau = np.geomspace(0.1, 1e4, 20)
+    constant = theory.cooling_by_velocity(tau, lambda speed: 0.9 + 0 * speed, 0.1)
+    np.testing.assert_allclose(constant, theory.homogeneous_cooling(tau, 0.9), rtol=2e-5)
+    late = theory.cooling_by_velocity([1e7, 1e8], lambda speed: theory.viscoelastic_restitution(speed, 0.1), 0.1)
+    assert np.log10(late[0] / late[1]) == pytest.approx(5 / 3, abs=0.01)

@@ -1,0 +1,68 @@
+"""What each effect adds to the time of a collision when a scene names it: all of them timed in turn, side by side."""
+
+import math
+import time
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+import xarray as xr
+
+from granugas.dynamics.events.engine import Engine
+from granugas.experiments.effects import PLAIN, ROWS, of_a_gas, start_of
+
+ALONE = ("the time of a collision",)
+
+NAMED = {row.name: row.scene for row in ROWS if row.conserved is of_a_gas}
+"""Scenes by the names of the effects that the event loop carries out."""
+
+PLAIN_NAME = next(name for name, scene in NAMED.items() if scene == PLAIN)
+"""The gas without effects, which all others are compared with."""
+
+
+class Size(NamedTuple):
+    """One size of the gases: number of particles, collisions of a particle in a repetition, and repetitions."""
+
+    n_particles: int
+    collisions: float
+    repetitions: int
+
+
+FULL = (Size(5740, 10.0, 31), Size(79524, 5.0, 9))
+SMALL = (Size(500, 10.0, 3), Size(2000, 10.0, 3))
+
+
+def measure(plan: tuple[Size, ...] = FULL) -> xr.Dataset:
+    """Processor time of a collision, of gases that all begin their repetitions anew with the same engines.
+
+    Returns:
+        Dataset over effect, n_particles and repetition (NaN where a size has fewer): cpu_per_collision in ns; and cpu_added,
+        what it is more than that of the plain gas in the same repetition. Compilation is not in it.
+    """
+    most = max(size.repetitions for size in plan)
+    costs = [np.pad(timed(size), ((0, 0), (0, most - size.repetitions)), constant_values=np.nan) for size in plan]
+    cost = xr.DataArray(
+        np.stack(costs, axis=1),
+        {"effect": list(NAMED), "n_particles": [size.n_particles for size in plan], "repetition": np.arange(most)},
+        ("effect", "n_particles", "repetition"),
+    )
+    added = cost - cost.sel(effect=PLAIN_NAME, drop=True)
+    return xr.Dataset({"cpu_per_collision": cost, "cpu_added": added}, attrs={"plain": PLAIN_NAME})
+
+
+def timed(size: Size) -> np.ndarray:
+    """(effects, repetitions) ns per collision."""
+    scenes = [replace(scene, n_particles=size.n_particles) for scene in NAMED.values()]
+    engines = [Engine(scene, start_of(scene)) for scene in scenes]
+    begun = [{name: rows.copy() for name, rows in engine.arrays.items()} for engine in engines]
+    collisions = math.ceil(size.collisions * size.n_particles / 2)
+    for engine in engines:
+        engine.advance(math.inf, 1)  # loads its kernel
+    cost = np.empty((len(engines), size.repetitions))
+    for k in range(size.repetitions):
+        for j, engine in enumerate(engines):
+            engine.restore(begun[j])
+            before = time.process_time()
+            engine.advance(math.inf, collisions)
+            cost[j, k] = (time.process_time() - before) / engine.collisions * 1e9
+    return cost
