@@ -6,9 +6,9 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from granugas.arguments import is_number, need_integer
+from granugas.dynamics import engine_of
 from granugas.dynamics.events.effects.constant import Constant
 from granugas.dynamics.events.effects.contact_time import ContactTime
-from granugas.dynamics.events.engine import Engine
 from granugas.equilibrate import equilibrate, state_of
 from granugas.scene import Scene
 from granugas.warm_up import warm_up
@@ -60,7 +60,7 @@ def time_collisions(
     warm_up([replace(scene)])
     compile_s = time.perf_counter() - started
     start = equilibrate(scene, seed=seed, collisions_per_particle=equilibration)
-    engine = Engine(scene, state_of(start), **effects)
+    engine = engine_of(scene, state_of(start), **effects)
     engine.advance(begin)
     costs = []
     for _ in range(ROUNDS):
@@ -75,7 +75,7 @@ def time_span(scene: Scene, until: float, *, equilibration: float = 30.0, seed: 
     started = time.perf_counter()
     warm_up([replace(scene)])
     compile_s = time.perf_counter() - started
-    engine = Engine(scene, state_of(equilibrate(scene, seed=seed, collisions_per_particle=equilibration)))
+    engine = engine_of(scene, state_of(equilibrate(scene, seed=seed, collisions_per_particle=equilibration)))
     clock = time.process_time()
     engine.advance(until)
     cost = (time.process_time() - clock) / max(engine.collisions, 1) * 1e9

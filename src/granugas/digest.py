@@ -83,8 +83,8 @@ def digest(modules: Iterable[str]) -> str:
 
 
 @cache
-def physics(effects: tuple[str, ...] = ("granugas.dynamics.events.effects.*",)) -> str:
-    """The digest of the engine with these effect files, of all of them unless named."""
+def physics(effects: tuple[str, ...] = ("granugas.dynamics.events.effects.*", "granugas.dynamics.lrv")) -> str:
+    """The digest of the engine with these files of effects and other dynamics, of all of them unless named."""
     return digest((*EVENTS, *effects))
 
 

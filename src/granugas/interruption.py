@@ -9,7 +9,7 @@ from typing import Protocol
 
 import numpy as np
 
-from granugas.dynamics.events.engine import Engine
+from granugas.dynamics import Dynamics
 
 ASKED = (signal.SIGTERM, signal.SIGINT)
 """Signals upon which a run with a checkpoint writes it and ends."""
@@ -36,7 +36,7 @@ class Interrupted(SystemExit):
 @contextmanager
 def watched(
     checkpoint: Keeper | None, state: Callable[[], Mapping[str, np.ndarray]], max_seconds: float
-) -> Iterator[Callable[[Engine], bool]]:
+) -> Iterator[Callable[[Dynamics], bool]]:
     """Yields what is to be called between two pieces of a run: it saves when that is due, and is True when time is over.
 
     Args:
@@ -51,7 +51,7 @@ def watched(
     catch = checkpoint is not None and threading.current_thread() is threading.main_thread()
     before = {number: signal.signal(number, lambda number, _: came.append(number)) for number in ASKED if catch}
 
-    def look(engine: Engine) -> bool:
+    def look(engine: Dynamics) -> bool:
         over = time.monotonic() >= end
         if checkpoint is not None and (came or over or checkpoint.is_due):
             checkpoint.save(state())

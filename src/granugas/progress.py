@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 from tqdm import tqdm
 
-from granugas.dynamics.events.engine import Engine
+from granugas.dynamics import Dynamics
 from granugas.dynamics.events.loop import EVENTS
 
 SLICE = 200_000
@@ -30,10 +30,10 @@ class Progress:
 
     def follow(
         self,
-        engine: Engine,
+        engine: Dynamics,
         until: float = math.inf,
         collisions: int = 2**62,
-        enough: Callable[[Engine], bool] = lambda engine: False,
+        enough: Callable[[Dynamics], bool] = lambda engine: False,
     ) -> int:
         """Advance the engine up to a time (s) or by a number of collisions; why it stopped (see loop).
 
@@ -52,7 +52,7 @@ class Progress:
         """Leave the bar as it is."""
         self._bar.close()
 
-    def _tell(self, engine: Engine) -> None:
+    def _tell(self, engine: Dynamics) -> None:
         now = time.monotonic()
         if not self._bar.disable:
             self._bar.n = min(engine.time / self._until, 1.0)
@@ -61,7 +61,7 @@ class Progress:
             self._logged = now
             logger.info("%s: %s", self._what, self._words(engine, now))
 
-    def _words(self, engine: Engine, now: float) -> str:
+    def _words(self, engine: Dynamics, now: float) -> str:
         text = f"t = {engine.time:.4g} s, {engine.collisions} collisions"
         if math.isfinite(self._until) and engine.time > 0:
             left = (now - self._started) * (self._until / engine.time - 1)

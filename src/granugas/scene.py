@@ -165,6 +165,7 @@ class Scene:
         kick_energy: ... in m^2/s^2 per mass of a particle, up to this.
         internal_modes: number of oscillators in each particle that take up what `restitution` leaves, and give it back.
         mode_damping: gamma in 1/s: their energy falls as exp(-gamma t).
+        lrv_velocity: in m/s; contacts of beads that are slower merge into clusters (LRV model, A section 3.i); 0: none do.
 
     Raises:
         SceneError: a value outside of what is allowed.
@@ -205,6 +206,7 @@ class Scene:
     kick_energy: float = number(0.0, at_least=0.0, unit="m^2/s^2")
     internal_modes: int = integer(0, 0, MOST_MODES)
     mode_damping: float = number(0.0, at_least=0.0, unit="1/s")
+    lrv_velocity: float = number(0.0, at_least=0.0, at_most=EXTREME, unit="m/s")
 
     def __post_init__(self) -> None:
         if isinstance(self.contact_time, (tuple, list)):
@@ -236,6 +238,7 @@ class Scene:
         self._refuse_walls_that_are_none()
         self._refuse_materials_that_are_none()
         self._refuse_models_that_are_none()
+        self._refuse_clusters_of_anything_but_beads()
 
     def _refuse_walls_that_are_none(self) -> None:
         words = self.boundary.split()
@@ -296,6 +299,20 @@ class Scene:
             allowed = f"allowed is less than {1 / longest:g} 1/s: modes ring longer than a contact_time of {longest:g} s"
             raise SceneError("mode_damping", self.mode_damping, allowed)
 
+    def _refuse_clusters_of_anything_but_beads(self) -> None:
+        if self.lrv_velocity == 0:
+            return
+        others = [key for key in SCENE_KEYS if key not in LRV_KEYS and getattr(self, key) != DEFAULTS[key]]
+        reasons = {
+            "unless dimensions = 1: only beads on a line pass impacts on one by one": self.dimensions != 1,
+            "at restitution = 1, where no energy is lost": self.restitution == 1,
+            f"with contact_time = {self.contact_time!r}: slow contacts merge, none of them lasts": self.contact_time != 0,
+            f"with {', '.join(others)}: the model knows equal beads on a ring and nothing else": bool(others),
+        }
+        for reason, holds in reasons.items():
+            if holds:
+                raise SceneError("lrv_velocity", self.lrv_velocity, f"allowed is 0 {reason}")
+
     @property
     def walled(self) -> tuple[bool, ...]:
         """For each axis of space, whether the box ends there in walls."""
@@ -355,6 +372,12 @@ SCENE_KEYS = tuple(key.name for key in fields(Scene))
 
 DEFAULTS = {key.name: key.default for key in fields(Scene)}
 """What keys hold that nobody names."""
+
+LRV_KEYS = (
+    *("n_particles", "area_fraction", "restitution", "contact_time", "diameter", "velocity_half_width", "dynamics"),
+    *("lattice", "dimensions", "lrv_velocity"),
+)
+"""Keys that scenes with an lrv_velocity may name."""
 
 CHECKS = {key.name: key.metadata["check"] for key in fields(Scene)}
 

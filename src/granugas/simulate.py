@@ -13,8 +13,8 @@ import xarray as xr
 
 from granugas.arguments import need_integer, need_scene
 from granugas.doubts import doubts_after, doubts_before, tell
+from granugas.dynamics import Dynamics, engine_of
 from granugas.dynamics.events import loop
-from granugas.dynamics.events.engine import Engine
 from granugas.equilibrate import equilibrate, need_start, state_of
 from granugas.interruption import Keeper, watched
 from granugas.progress import Progress
@@ -85,7 +85,7 @@ def simulate(
     if state is None:
         state = equilibrate(scene, seed=seed, realization=realization, progress=progress)
     need_start(scene, state)
-    engine = Engine(scene, state_of(state, seed, realization))
+    engine = engine_of(scene, state_of(state, seed, realization))
     tell(doubts := doubts_before(scene, state.attrs, engine.cells, keep_positions))
     first = engine.state()
     record = Record(scene, first, points, times, keep_positions, keep_motion, engine.observe(first))
@@ -159,7 +159,7 @@ def _stops(n: int, limits: Limits, points: Samples, record: Record, max_collisio
         times.append((FREQUENCY_WINDOW * snapshot, lambda engine, k=k: record.open_window(k, engine.state())))
         times.append((snapshot, lambda engine, k=k: record.take_snapshot(k, engine.state())))
 
-    def sample(engine: Engine) -> None:
+    def sample(engine: Dynamics) -> None:
         state, tally = engine.state(), engine.take_tally()
         record.sample(state, tally, engine.observe(state, tally, state.time - record.time))
 
@@ -175,7 +175,7 @@ def _stops(n: int, limits: Limits, points: Samples, record: Record, max_collisio
     return tuple(deque(sorted(stops, key=lambda stop: stop[0])) for stops in (times, counts))
 
 
-def _run(engine: Engine, bar: Progress, times: deque, counts: deque, enough: Callable[[Engine], bool]) -> str:
+def _run(engine: Dynamics, bar: Progress, times: deque, counts: deque, enough: Callable[[Dynamics], bool]) -> str:
     """Go from stop to stop until one of them is the end; returns the reason."""
     while True:
         until = float(times[0][0]) if times else math.inf
@@ -194,7 +194,7 @@ def _run(engine: Engine, bar: Progress, times: deque, counts: deque, enough: Cal
             return "max_seconds"
 
 
-def _collapse_message(engine: Engine) -> str:
+def _collapse_message(engine: Dynamics) -> str:
     who = engine.involved()
     names = ", ".join(map(str, who[:12])) + (" ..." if len(who) > 12 else "")
     return (

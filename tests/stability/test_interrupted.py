@@ -24,6 +24,10 @@ SCENES = {
         {"until": {"collisions_per_particle": 60}, "samples": {"count": 7, "spacing": "linear"}},
     ),
     "collapse": (Scene(500, 0.3, restitution=0.1, contact_time=0.0), {"until": 5.0, "samples": {"count": 30}}),
+    "beads that merge": (
+        Scene(60, 0.3, restitution=0.6, contact_time=0.0, dimensions=1, lrv_velocity=0.02),
+        {"until": 1.0, "samples": {"count": 30}, "snapshots": (0.05, 1.0), "keep_motion": True},
+    ),
     "few disks": (Scene(5, 0.1, restitution=0.9, contact_time=1e-6), {"until": 2.0, "samples": {"count": 100}}),
 }
 

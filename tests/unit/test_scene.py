@@ -114,6 +114,9 @@ WRONG = [
     ("kick_velocity", -1e-3, "a number >= 0 m/s"),
     ("internal_modes", 101, "an integer from 0 to 100"),
     ("mode_damping", 1.0, "0 without internal_modes"),
+    ("lrv_velocity", -0.1, "a number >= 0 and <= 1e+50 m/s"),
+    ("lrv_velocity", math.inf, "a number >= 0 and <= 1e+50 m/s"),
+    ("lrv_velocity", 0.1, "0 unless dimensions = 1"),
 ]
 
 
@@ -195,7 +198,17 @@ def test_a_wrong_list_of_contact_times(times):
         Scene(restitution=1.0, contact_time=times)
 
 
+BEADS = {"dimensions": 1, "contact_time": 0.0, "lrv_velocity": 0.1}
+
 TOGETHER = [
+    (BEADS | {"contact_time": 1e-5}, "lrv_velocity = 0.1: allowed is 0 with contact_time = 1e-05: slow contacts merge"),
+    (BEADS | {"restitution": 1.0}, "lrv_velocity = 0.1: allowed is 0 at restitution = 1, where no energy is lost"),
+    (BEADS | {"boundary": "wall"}, "lrv_velocity = 0.1: allowed is 0 with boundary: the model knows equal beads on a ring"),
+    (BEADS | {"boundary": "wall", "gravity": 9.81}, "lrv_velocity = 0.1: allowed is 0 with boundary, gravity: the model"),
+    (BEADS | {"sizes": "uniform", "heating": 1.0}, "lrv_velocity = 0.1: allowed is 0 with sizes, heating: the model"),
+    (BEADS | {"material": "viscoelastic", "viscosity": 0.1}, "lrv_velocity = 0.1: allowed is 0 with material, viscosity: the"),
+    (BEADS | {"critical_distance": 1e-4}, "lrv_velocity = 0.1: allowed is 0 with critical_distance: the model"),
+    (BEADS | {"internal_modes": 1}, "lrv_velocity = 0.1: allowed is 0 with internal_modes: the model"),
     ({"contact_time_exponent": 1.0}, "contact_velocity = 0.0: allowed is a number > 0"),
     ({"contact_time_exponent": 1.0, "contact_velocity": 0.1, "contact_time": 0.0}, "contact_time_exponent = 1.0: allowed is 0"),
     ({"material": "viscoelastic"}, "viscosity = 0.0: allowed is a number > 0"),

@@ -139,6 +139,17 @@ def test_values_are_rounded_so_that_equal_addresses_are_equal_runs() -> None:
     assert one == other
 
 
+def test_beads_whose_slow_contacts_merge_are_one_grid_key() -> None:
+    """At 0 hard beads; where the model does not hold the message says so."""
+    line = {"scene": {"dimensions": 1}, "realizations": 1}
+    grid = {"n_particles": 42, "restitution": 0.8, "contact_time": 0.0, "lrv_velocity": [0.0, 1.0e-3]}
+    runs = load_study(grid=grid, **line).runs
+    assert [run.scene.lrv_velocity for run in runs] == [0.0, 1e-3]
+    assert len({run.address for run in runs}) == 2 and len({run.state_address for run in runs}) == 1
+    with pytest.raises(ConfigError, match=r"lrv_velocity.*0\.001.*at restitution = 1, where no energy is lost"):
+        load_study(grid=grid | {"restitution": 1.0}, **line)
+
+
 def test_an_elastic_run_holds_all_contact_times() -> None:
     study = load_study(grid={"restitution": [1, 0.4], "contact_time": [1.0e-4, 1.0e-5], "n_particles": 42})
     elastic = [run for run in study.runs if run.scene.restitution == 1]

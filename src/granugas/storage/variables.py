@@ -70,6 +70,7 @@ VARIABLES = {
     "kick_energy": Variable("m2 s-2", "largest energy of a kick by the mass of a particle", "", "A section 3"),
     "internal_modes": Variable("1", "number of internal modes of a particle", "n", "A section 3"),
     "mode_damping": Variable("s-1", "rate at which the energy of internal modes falls", "gamma", "A section 3"),
+    "lrv_velocity": Variable("m s-1", "relative velocity below which contacts of beads merge into clusters", "", "A section 3"),
     # its start state
     "box_x": Variable("m", "side of the box along x", "L_x"),
     "box_y": Variable("m", "side of the box along y", "L_y"),

@@ -1,12 +1,24 @@
 """Beads on a line whose slow contacts merge: it ends, keeps momentum, and is the hard-bead model at threshold 0."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from granugas.dynamics.lrv import FREE, PERIODIC, WALLS, Contact, advance
+from granugas.checks import findings
+from granugas.dynamics import engine_of
+from granugas.dynamics.events.engine import Engine
+from granugas.dynamics.events.loop import COLLISIONS, EVENTS, TIME
+from granugas.dynamics.lrv import FREE, PERIODIC, WALLS, Beads, Contact, advance
 from granugas.equilibrate import at_rest
+from granugas.execute import perform, start_states
+from granugas.runs import Run
+from granugas.scene import Scene
+from granugas.simulate import simulate
+from granugas.storage.dataset import content_sha256
+from granugas.storage.pooling import pool
+from granugas.warm_up import warm_up
 
 D = 1.0
 
@@ -158,3 +170,128 @@ def test_nobody_meets_anybody():
     passage = advance(start, 3.0, D, Contact(0.5, 0.1, FREE))
     np.testing.assert_allclose(passage.state.position[:, 0], [-2.0, 8.0])
     assert passage.collisions == passage.merged == 0
+
+
+# --- as the dynamics of a scene
+
+SCENE = Scene(40, 0.5, restitution=0.3, contact_time=0.0, dimensions=1, diameter=D, velocity_half_width=1.0, lrv_velocity=0.05)
+
+
+def dynamics(scene=SCENE, start=None):
+    return engine_of(scene, start or gas(scene.n_particles))
+
+
+def test_a_scene_has_these_dynamics_where_it_says_so():
+    assert isinstance(dynamics(), Beads)
+    assert isinstance(dynamics(Scene(40, 0.5, restitution=0.3, contact_time=0.0, dimensions=1, diameter=D)), Engine)
+
+
+def test_the_dynamics_do_not_depend_on_looks():
+    """Sampled or not, in slices or at once: the same beads to the last bit."""
+    straight, looked = dynamics(), dynamics()
+    assert straight.advance(20.0) == TIME
+    for time in np.linspace(0, 20.0, 301)[1:]:
+        while looked.advance(time, most_events=1) == EVENTS:
+            pass
+        looked.state()
+        looked.observe(looked.state(), looked.take_tally(), 1.0)
+    assert looked.collisions == straight.collisions > 60
+    for name in ("position", "velocity", "last_collision_time", "last_collision_interval", "collisions"):
+        np.testing.assert_array_equal(getattr(looked.state(), name), getattr(straight.state(), name))
+    alone = advance(gas(40), 20.0, D, Contact(0.3, 0.05)).state
+    np.testing.assert_array_equal(straight.state().velocity, alone.velocity)
+
+
+def test_it_goes_on_from_a_copy_of_its_arrays():
+    straight, resumed = dynamics(), dynamics()
+    straight.advance(1.0, 30)
+    resumed.restore(saved := straight.arrays)
+    for beads_ in (straight, resumed):
+        beads_.advance(20.0)
+    assert (resumed.time, resumed.collisions) == (20.0, straight.collisions)
+    for name, rows in straight.arrays.items():
+        np.testing.assert_array_equal(resumed.arrays[name], rows)
+    assert not np.array_equal(saved["v"], straight.arrays["v"])
+    a, b = straight.take_tally(), resumed.take_tally()
+    assert (a.collisions, a.loss, a.loss_time) == (b.collisions, b.loss, b.loss_time)
+
+
+def test_why_it_stops():
+    engine = dynamics()
+    assert engine.advance(math.inf, 5) == COLLISIONS and engine.collisions >= 5
+    assert engine.advance(math.inf, -1) == COLLISIONS
+    now = engine.time
+    assert engine.advance(math.inf, most_events=1) == EVENTS and engine.time > now
+    free = dynamics(start=beads(np.arange(40) * 2.0 + 1, np.full(40, 0.3), box=80.0))
+    assert free.advance(7.0) == TIME and free.time == 7.0
+    np.testing.assert_allclose(free.state().position[:, 0], (np.arange(40) * 2.0 + 3.1) % 80.0)
+    assert free.advance(math.inf) == TIME and free.time == 7.0
+
+
+def test_its_sums():
+    """Two beads meet after 1 s with u = 1, r = .3; two others at u = .04 merge after 25 s. Taken at 10 and 30 s."""
+    scene = replace(SCENE, n_particles=4)
+    engine = dynamics(scene, beads([10.0, 12.0, 110.0, 112.0], [0.0, -1.0, 0.04, 0.0], box=300.0))
+    engine.advance(10.0)
+    tally = engine.take_tally()
+    loss = 0.25 * (1 - 0.3**2)
+    assert (tally.collisions, tally.elastic.tolist()) == (1, [0])
+    assert (tally.loss, tally.loss_time) == pytest.approx((loss, 9 * loss))
+    assert np.isnan(tally.stress).all() and tally.stress.shape == (1, 1)
+    engine.advance(30.0)
+    tally = engine.take_tally()
+    assert tally.collisions == 1
+    assert (tally.loss, tally.loss_time) == pytest.approx((0.25 * 0.0016, 5 * 0.25 * 0.0016))
+    assert engine.state().collisions.tolist() == [1, 1, 1, 1]
+
+
+def test_a_run_goes_on_where_hard_beads_collapse():
+    asked = {"seed": 1, "samples": {"count": 30}, "snapshots": (100.0,), "progress": False}
+    hard = simulate(replace(SCENE, lrv_velocity=0.0), 100.0, **asked)
+    run = simulate(SCENE, 100.0, **asked)
+    assert (hard["stop_reason"].item(), run["stop_reason"].item()) == ("inelastic_collapse", "time")
+    np.testing.assert_allclose(run["trajectory"].values[0], hard["trajectory"].values[0], rtol=1e-14)
+    assert np.all(np.diff(run["kinetic_energy"]) <= 1e-15) and run["kinetic_energy"].values[-1] < 1e-3
+    assert abs(run["velocity"].sum()) < 1e-13
+    assert run["events"].item() == run["collisions_per_particle"].values[-1] * 20 > 100
+    assert np.isnan(run["reduced_pressure"]).all() and np.isnan(run["collisional_stress_xx"]).all()
+    assert run.attrs["lrv_velocity"] == 0.05
+
+
+def test_it_ends_where_one_cluster_is_left():
+    run = simulate(replace(SCENE, lrv_velocity=10.0), {"collisions_per_particle": 1e4}, seed=1, progress=False)
+    assert run["stop_reason"].item() == "no_more_events"
+    assert 0 < run["stop_time"].item() < math.inf
+
+
+class Kept:
+    """Checkpoints in memory: one at every look."""
+
+    is_due = True
+
+    def __init__(self, last=None):
+        self.saved, self._last = [], last
+
+    def load(self):
+        return self._last
+
+    def save(self, arrays):
+        self.saved.append({name: np.array(values) for name, values in arrays.items()})
+
+
+def test_a_resumed_run_is_the_same_run():
+    asked = {"seed": 1, "samples": {"count": 20}, "snapshots": (1.0, 20.0), "keep_motion": True, "progress": False}
+    whole = simulate(SCENE, 20.0, checkpoint=(kept := Kept()), **asked)
+    assert len(kept.saved) > 20
+    for saved in kept.saved[5:20:7]:
+        assert content_sha256(simulate(SCENE, 20.0, checkpoint=Kept(saved), **asked)) == content_sha256(whole)
+
+
+def test_a_job_of_the_workflow_has_nothing_to_find():
+    """Start states, runs, pool, checks; what is compiled ahead is the equilibration alone."""
+    warm_up([SCENE])
+    samples = {"spacing": "log", "count": 20, "first": 0.1, "axis": "collisions"}
+    run = Run(SCENE, 1, (0, 1), {"collisions_per_particle": 8.0}, samples, (0.5,), 10.0, True)
+    data = pool([perform(run, start_states(run))], ["restitution"])
+    assert findings(data) == []
+    assert np.all(data["events"] >= 160)

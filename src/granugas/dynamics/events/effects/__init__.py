@@ -13,6 +13,8 @@ def called_by(scene: Scene) -> dict[str, str | tuple[str, ...]]:
     restitution where the rule leaves it to it. Several files in one place: each rule asks the next one where it does not
     decide, the last one the material; what follows a collision happens in this order.
     """
+    if scene.lrv_velocity > 0:
+        return {}  # beads of another dynamics
     dissipates, lasting = scene.dissipates, any(scene.contact_times)
     called = {"material": scene.material, "rule": "hard", "watch": "nobody"}
     if dissipates:
@@ -48,9 +50,10 @@ def called_by(scene: Scene) -> dict[str, str | tuple[str, ...]]:
 
 
 def modules_of(*scenes: Scene) -> tuple[str, ...]:
-    """Full names of the files that scenes call for."""
-    names = {name for scene in scenes for held in called_by(scene).values() for name in several(held)}
-    return tuple(f"{__name__}.{name}" for name in sorted(names))
+    """Full names of the files that scenes call for: effects, and dynamics other than the engine's."""
+    names = {f"{__name__}.{name}" for scene in scenes for held in called_by(scene).values() for name in several(held)}
+    names |= {"granugas.dynamics.lrv" for scene in scenes if scene.lrv_velocity > 0}
+    return tuple(sorted(names))
 
 
 def several(names: str | tuple[str, ...]) -> tuple[str, ...]:
