@@ -233,22 +233,31 @@ def blue_green_red(low: float, middle: float, high: float) -> ScalarMappable:
 
 
 def draw_disks(
-    axes: Axes, position: NDArray[np.float64], box: Sequence[float], diameter: float, colour: NDArray[np.float64]
+    axes: Axes,
+    position: NDArray[np.float64],
+    box: Sequence[float],
+    diameter: float | NDArray[np.float64],
+    colour: NDArray[np.float64],
+    walled: Sequence[bool] = (False, False),
 ) -> None:
-    """Disks to scale in their periodic box, in units of their diameter, as a picture of dots in every format.
+    """Disks to scale in their box, in units of their mean diameter, as a picture of dots in every format.
 
     Args:
         axes: without ticks afterwards.
         position: (n, 2) in m.
         box: sides in m.
-        diameter: in m.
+        diameter: in m, of all or (n,).
         colour: (n, 4).
+        walled: for each axis, whether the box ends there in walls; it is periodic elsewhere.
     """
-    sides = np.asarray(box) / diameter
-    images = [(position / diameter + np.array(shift) * sides, colour) for shift in product((-1, 0, 1), repeat=2)]
-    place, colour = (np.concatenate(parts) for parts in zip(*images, strict=True))
-    seen = ((place > -0.5) & (place < sides + 0.5)).all(axis=1)
-    diameters = np.ones(seen.sum())
+    unit = float(np.mean(diameter))
+    sides, width = np.asarray(box) / unit, np.broadcast_to(np.asarray(diameter) / unit, len(position))
+    shifts = product(*[(0,) if wall else (-1, 0, 1) for wall in walled])
+    images = [(position / unit + np.array(shift) * sides, colour, width) for shift in shifts]
+    place, colour, width = (np.concatenate(parts) for parts in zip(*images, strict=True))
+    reach = width[:, np.newaxis] / 2
+    seen = ((place > -reach) & (place < sides + reach)).all(axis=1)
+    diameters = width[seen]
     axes.add_collection(
         EllipseCollection(
             diameters,
