@@ -173,7 +173,9 @@ def warm_up(log: str | Path, scenes: Iterable[Scene]) -> None:
     Path(log).parent.mkdir(parents=True, exist_ok=True)
     with open(log, "w") as file:
         kinds = {(scene.dimensions, *called_by(scene).values()): scene for scene in scenes}  # same kernels, same kind
-        command = [sys.executable, "-c", f"from granugas import Scene, warm_up; warm_up({list(kinds.values())!r})"]
+        values = [scene.as_dict() for scene in kinds.values()]
+        program = f"from math import inf; from granugas import Scene, warm_up; warm_up([Scene(**v) for v in {values!r}])"
+        command = [sys.executable, "-c", program]
         code = subprocess.run(command, stdout=file, stderr=subprocess.STDOUT, check=False).returncode
         if code and -code not in (signal.SIGTERM, signal.SIGINT, signal.SIGKILL):
             forget_kernels()

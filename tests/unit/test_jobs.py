@@ -190,6 +190,17 @@ def test_kernels_that_cannot_be_used_are_compiled_again(tmp_path: Path, monkeypa
     assert calls == expected
 
 
+def test_the_process_that_compiles_ahead_reads_the_scenes_as_they_are(tmp_path: Path, monkeypatch) -> None:
+    """Endless values, several contact times, and a scene without kernels of its own; nothing is said, nothing forgotten."""
+    monkeypatch.setattr("granugas.jobs.forget_kernels", lambda: pytest.fail("forgotten"))
+    scenes = [
+        Scene(restitution=1.0, contact_time=(1e-5, 1e-3)),
+        Scene(dimensions=1, contact_time=0.0, lrv_velocity=0.1),
+    ]
+    warm_up(tmp_path / "log", scenes)
+    assert (tmp_path / "log").read_text() == ""
+
+
 def test_only_kernels_of_its_own_are_forgotten(tmp_path: Path, monkeypatch) -> None:
     for name, gone in (("granugas/kernels-1", True), ("elsewhere", False)):
         folder = tmp_path / name
