@@ -217,7 +217,7 @@ def steady(scene: Scene, length: float, expected: float) -> Measured:
 
 
 def kick(scene: Scene, length: float) -> Measured:
-    """K where kicks of slow partners give what collisions take: the scene's are such that it is 1."""
+    """K where kicks of slow partners give what Maxwellian collisions take."""
     return steady(scene, length, 1.0)
 
 
@@ -410,7 +410,7 @@ def measure_row(row: Row, plan: Plan) -> dict[str, object]:
     measured, expected = row.check(row.scene, plan.length)
     return {
         "scene_keys": keys_of(row.scene),
-        "check": " ".join(row.check.__doc__.split()),
+        "check": " ".join(row.check.__doc__.split()).removesuffix("."),
         "momentum_drift": momentum,
         "energy_balance": balance,
         "measured": float(measured),
@@ -423,7 +423,8 @@ def measure_row(row: Row, plan: Plan) -> dict[str, object]:
 def keys_of(scene: Scene) -> str:
     """What a scene names beyond elastic disks."""
     plain = PLAIN.as_dict()
-    return ", ".join(f"{key}: {value}" for key, value in scene.as_dict().items() if value != plain[key])
+    named = {key: value for key, value in scene.as_dict().items() if value != plain[key]}
+    return ", ".join(f"{key}: {value:.6g}" if isinstance(value, float) else f"{key}: {value}" for key, value in named.items())
 
 
 def code_lines(name: str) -> int:

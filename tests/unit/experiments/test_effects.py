@@ -109,3 +109,9 @@ def test_balanced_kicks():
     assert effects._balanced_heating() == pytest.approx(
         float((1 - 0.95**2) / 2 * effects.HOT * theory.enskog_rate(0.2267, 2 * effects.HOT / 2, 1e-3)), rel=1e-12
     )
+
+
+def test_keys_are_what_a_scene_has_beyond_elastic_disks():
+    assert effects.keys_of(effects.PLAIN) == ""
+    scene = effects.replace(effects.PLAIN, restitution=0.9, contact_time=1 / 3e5, sizes="log_normal")
+    assert effects.keys_of(scene) == "restitution: 0.9, contact_time: 3.33333e-06, sizes: log_normal"
