@@ -9,12 +9,12 @@ import numpy as np
 import xarray as xr
 
 from granugas.dynamics.events.engine import Engine
-from granugas.experiments.effects import PLAIN, ROWS, of_a_gas, start_of
+from granugas.experiments.effects import PLAIN, ROWS, start_of
 
 ALONE = ("the time of a collision",)
 
-NAMED = {row.name: row.scene for row in ROWS if row.conserved is of_a_gas}
-"""Scenes by the names of the effects that the event loop carries out."""
+NAMED = {row.name: row.scene for row in ROWS if row.scene.lrv_velocity == 0}
+"""Scenes of the event-driven engine by the names of their effects."""
 
 PLAIN_NAME = next(name for name, scene in NAMED.items() if scene == PLAIN)
 """The gas without effects, which all others are compared with."""
