@@ -5,7 +5,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from granugas.analysis.growth import growth_regime, local_exponent
+from granugas.analysis.growth import growth_window
 from granugas.analysis.sizes import middle_sizes, octaves, size_distribution
 from granugas.analysis.statistics import fit_power_law
 from granugas.analysis.theory import homogeneous_cooling
@@ -17,10 +17,10 @@ TIMES = (0.01, 1.0, 4.0, 16.0, 200.0)
 
 
 def growth(axes: Axes, sizes: xr.DataArray, **look) -> None:
-    """A size against time with its power law in its growth regime, which the legend tells."""
+    """A size against time with its power law in its growth window, which the legend tells."""
     sizes = sizes.transpose("realization", "time")[:, 1:]
-    t, found = sizes["time"], growth_regime(sizes["time"], local_exponent(sizes["time"], sizes).mean(axis=0))
-    fit = fit_power_law(t, sizes, tuple(np.where(np.isnan(found), t[[0, -1]], found)))
+    t = sizes["time"]
+    fit = fit_power_law(t, sizes, growth_window(t, sizes))
     words = f"${float(sizes['distance_factor']):g}$: {exponent(fit)} ({fit.window[0]:.2g} to {fit.window[1]:.2g} s)"
     band(axes, t, sizes, label=words, **look)
     axes.plot(fit.window, fit(fit.window), color="black", linewidth=0.8, linestyle=(0, (3, 1.5)), zorder=3)
