@@ -23,6 +23,7 @@ from granugas.analysis.statistics import fit_power_law
 
 FIGURES = Path(__file__).parents[2] / "workflow" / "figures"
 NAMES = sorted(path.stem for path in FIGURES.glob("*.py"))
+SMOOTH = {"material": "constant", "tangential_restitution": -1.0, "friction": np.inf}
 
 
 def study(realizations=2, clusters=False, **grid):
@@ -54,7 +55,7 @@ def study(realizations=2, clusters=False, **grid):
             **{name: (dims[:-1], np.full(shape, value)) for name, value in once.items()},
         },
         coords=grid | {"time": time, "realization": np.arange(realizations), "snapshot": [0.1, 5.0]},
-        attrs={"area_fraction": 0.25, "diameter": 0.05, "velocity_half_width": 0.5},
+        attrs={"area_fraction": 0.25, "diameter": 0.05, "velocity_half_width": 0.5, "dimensions": 2} | SMOOTH,
     )
     if clusters:
         factors = np.array([1.05, 1.1, 1.2, 1.3, 1.4])
@@ -73,7 +74,7 @@ def study(realizations=2, clusters=False, **grid):
 def needed_by(studies, realizations, contact_times):
     return {
         name: study(realizations, clusters=True)
-        if name.startswith("cluster1999")
+        if name.startswith(("cluster1999", "growth"))
         else elastic_study(contact_times, (0.1, 0.2, 0.72), realizations)
         if name.startswith("tc1998_elastic")
         else collapse_study(int(name.removeprefix("collapse_n")), realizations)

@@ -5,24 +5,24 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from granugas.analysis.growth import growth_regime, local_exponent
+from granugas.analysis.growth import growth_window
 from granugas.analysis.sizes import middle_sizes, octaves, size_distribution
 from granugas.analysis.statistics import fit_power_law
 from granugas.analysis.theory import homogeneous_cooling
 from granugas.plotting import MARKERS, PAGE, THEORY, band, exponent, grid_points, mark_panels, shades, styled
 
 STUDIES = ("growth_3d",)
+FACTORS = (1.05, 1.1, 1.2)
 TIMES = (0.01, 1.0, 4.0, 16.0, 200.0)
 """Of the size distributions, in s: before growth, its beginning, two in it, and the end."""
 
 
 def growth(axes: Axes, sizes: xr.DataArray, **look) -> None:
-    """A size against time with its power law in its growth regime, which the legend tells."""
+    """A size against time with its power law in its growth window, which the legend tells."""
     sizes = sizes.transpose("realization", "time")[:, 1:]
-    t, found = sizes["time"], growth_regime(sizes["time"], local_exponent(sizes["time"], sizes).mean(axis=0))
-    fit = fit_power_law(t, sizes, tuple(np.where(np.isnan(found), t[[0, -1]], found)))
+    fit = fit_power_law(sizes["time"], sizes, growth_window(sizes["time"], sizes))
     words = f"${float(sizes['distance_factor']):g}$: {exponent(fit)} ({fit.window[0]:.2g} to {fit.window[1]:.2g} s)"
-    band(axes, t, sizes, label=words, **look)
+    band(axes, sizes["time"], sizes, label=words, **look)
     axes.plot(fit.window, fit(fit.window), color="black", linewidth=0.8, linestyle=(0, (3, 1.5)), zorder=3)
 
 
@@ -32,12 +32,12 @@ def draw(data: dict[str, xr.Dataset]) -> Figure:
     figure = Figure(figsize=(PAGE, 5.8))
     (mean, largest, energy), numbers = panels = figure.subplots(2, 3)
     ((key, runs),) = grid_points(data[STUDIES[0]])
-    n, factors = key["n_particles"], runs["distance_factor"].values
+    n = key["n_particles"]
     for axes, label in ((mean, r"$\langle M \rangle$"), (largest, r"$M_{\max}$"), (energy, "$K$")):
         axes.set(xscale="log", yscale="log", xlabel="$t$ (s)", ylabel=label)
     largest.axhline(n, color="0.35", linewidth=0.6, zorder=0)
-    for axes, factor, colour in zip(numbers, factors, shades(len(factors)), strict=True):
-        found = runs.sel(distance_factor=factor)
+    for axes, factor, colour in zip(numbers, FACTORS, shades(len(FACTORS)), strict=True):
+        found = runs.sel(distance_factor=factor, method="nearest")
         growth(mean, found["mean_cluster_size"], color=colour)
         growth(largest, found["largest_cluster_size"], color=colour)
         axes.set(xscale="log", yscale="log", xlabel="$M$", title=f"$S_c = {factor:g}$", ylim=(1 / n**2, 2))

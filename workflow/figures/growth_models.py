@@ -5,7 +5,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from granugas.analysis.growth import growth_regime, local_exponent
+from granugas.analysis.growth import growth_window, local_exponent
 from granugas.analysis.statistics import fit_power_law
 from granugas.plotting import PAGE, band, grid_points, mark_panels, styled
 
@@ -24,21 +24,19 @@ def named(scene: dict) -> str:
     return rf"$r = {scene['restitution']:g}${beta}{mu}"
 
 
-def bars(axes: Axes, place: int, t: xr.DataArray, sizes: xr.DataArray, exponents: np.ndarray, colour: str) -> str:
+def bars(axes: Axes, place: int, t: xr.DataArray, sizes: xr.DataArray, colour: str) -> str:
     """The exponent between beginning and end of the growth regime, with its interval; the window as text."""
-    low, high = growth_regime(t, exponents.mean(axis=0))
-    window = (np.nan_to_num(low, nan=float(t[0])), np.nan_to_num(high, nan=float(t[-1])))
-    fit = fit_power_law(t, sizes, window)
+    fit = fit_power_law(t, sizes, growth_window(t, sizes))
     reach = np.nan_to_num(np.abs(np.array(fit.interval) - fit.exponent))[:, np.newaxis]
     axes.errorbar(fit.exponent, place, xerr=reach, fmt="o", color=colour, capsize=2)
-    return f"{window[0]:.2g} to {window[1]:.2g} s"
+    return f"{fit.window[0]:.2g} to {fit.window[1]:.2g} s"
 
 
 @styled
 def draw(data: dict[str, xr.Dataset]) -> Figure:
     """(a) <M> over time, (b) its local exponent, (c) the exponent of its growth regime."""
-    figure = Figure(figsize=(PAGE, 5.6))
-    panels = growth, local, fits = [figure.add_subplot(2, 2, 1), figure.add_subplot(2, 2, 2), figure.add_subplot(2, 1, 2)]
+    figure = Figure(figsize=(PAGE, 6.0))
+    growth, local, fits = panels = [*figure.subplot_mosaic("ab;cc").values()]
     growth.set(xscale="log", yscale="log", xlabel="$t$ (s)", ylabel=r"$\langle M \rangle$")
     local.set(xscale="log", xlabel="$t$ (s)", ylabel=r"$\mathrm{d}\,\ln\langle M \rangle\,/\,\mathrm{d}\,\ln t$")
     names = []
@@ -48,10 +46,15 @@ def draw(data: dict[str, xr.Dataset]) -> Figure:
         t, exponents, colour = sizes["time"], local_exponent(sizes["time"], sizes), f"C{place}"
         band(growth, t, sizes, color=colour, label=named(scene))
         band(local, t, sizes.copy(data=exponents), color=colour)
-        names.append(f"{named(scene)}\n{bars(fits, place, t, sizes, exponents, colour)}")
+        names.append(f"{named(scene)}\n{bars(fits, place, t, sizes, colour)}")
     growth.legend()
+    growth.set_yticks(ticks := [1, 2, 3, 5, 10], ticks)
+    growth.set_yticks([], minor=True)
     local.axhline(0.3, color="0.35", linewidth=0.6, zorder=0)
-    fits.set(xlabel=rf"exponent of $\langle M \rangle$, $S_c = {FACTOR:g}$", yticks=range(len(names)), yticklabels=names)
-    fits.invert_yaxis()
+    fits.axvline(0.3, color="0.35", linewidth=0.6, zorder=0)
+    fits.set(xlabel=rf"exponent of $\langle M \rangle$, $S_c = {FACTOR:g}$", xlim=(-0.3, 1.0))
+    fits.set_yticks(range(len(names)), names)
+    fits.set_yticks([], minor=True)
+    fits.set_ylim(len(names) - 0.4, -0.6)
     mark_panels(*panels)
     return figure

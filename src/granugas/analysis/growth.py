@@ -99,6 +99,29 @@ def growth_regime(t: ArrayLike, exponent: ArrayLike) -> tuple[float, float]:
     return float(np.exp(begin)), float(np.exp(end))
 
 
+def growth_window(t: ArrayLike, y: ArrayLike) -> tuple[float, float]:
+    """Where a power law is fitted to growing y: the `growth_regime` of the geometric mean of the realizations.
+
+    It ends with the samples where the regime does not end, and holds at least the window of the largest local exponent: the
+    regime of a curve that jumps may be narrower than the distance of its samples.
+
+    Args:
+        t: (m,).
+        y: (n, m), positive.
+
+    Returns:
+        Beginning and end in units of t; those of t where nothing grows.
+    """
+    t = np.asarray(t, dtype=float)
+    exponent = local_exponent(t, y).mean(axis=0)
+    low, high = growth_regime(t, exponent)
+    low, high = t[0] if np.isnan(low) else low, t[-1] if np.isnan(high) else high
+    if np.isnan(exponent).all():
+        return float(low), float(high)
+    steepest, reach = t[np.nanargmax(exponent)], np.exp(WIDTH / 2 + ROUNDING)
+    return float(min(low, steepest / reach)), float(max(high, steepest * reach))
+
+
 def regime_boundaries(t: ArrayLike, y: ArrayLike) -> tuple[Boundary, Boundary]:
     """Beginning and end of the growth of y by `growth_regime` of the geometric mean of the realizations.
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from granugas.analysis.growth import growth_regime, local_exponent, regime_boundaries, window_exponents
+from granugas.analysis.growth import growth_regime, growth_window, local_exponent, regime_boundaries, window_exponents
 from granugas.analysis.statistics import fit_power_law
 
 T = np.geomspace(5e-3, 446.6, 250)
@@ -69,6 +69,25 @@ def test_a_bump_elsewhere_is_no_boundary():
     exponent = np.interp(np.log(T), np.log([0.01, 0.02, 0.04, 1, 2, 40, 80]), [0, 0.2, 0, 0, 0.3, 0.3, 0])
     begin, end = growth_regime(T, exponent)
     assert (begin, end) == pytest.approx((np.sqrt(2), 40 * np.sqrt(2)), rel=0.01)
+
+
+@pytest.mark.parametrize(("end", "reached"), [(40, 40), (1e4, T[-1])])
+def test_the_window_of_a_fit_is_the_regime_or_ends_with_the_samples(end, reached):
+    assert growth_window(T, three_regimes(end=end)) == pytest.approx((1, reached), rel=0.02)
+
+
+def test_a_jump_leaves_enough_samples_to_fit():
+    """A dip after it makes its regime narrower than the window of a local exponent."""
+    t = np.geomspace(5e-3, 446.6, 20)
+    y = np.where(t > 1, np.where(t > 3, 1.5, 3), 1.0)[np.newaxis]
+    narrow, window = growth_regime(t, local_exponent(t, y)[0]), growth_window(t, y)
+    assert np.count_nonzero((t >= narrow[0]) & (t <= narrow[1])) < 3
+    assert fit_power_law(t, y, window).exponent > 0
+
+
+@pytest.mark.parametrize("y", [T**-0.3, np.full(250, np.nan)])
+def test_where_nothing_grows_the_window_is_the_run(y):
+    assert growth_window(T, y[np.newaxis]) == (T[0], T[-1])
 
 
 @pytest.mark.parametrize("samples", [60, 250])
