@@ -23,11 +23,10 @@ def draw(data: dict[str, xr.Dataset]) -> Figure:
         run = models.sel(model=name).isel(time=slice(1, None))
         dashed = {"linestyle": "--"} if (run["stop_reason"] == "inelastic_collapse").all() else {}
         for axes, values in ((energy, run["kinetic_energy"]), (spent, run["collisions_per_particle"])):
-            axes.plot(run["time"], values.mean("realization"), color=colour, label=name, **dashed)
-            if dashed:
-                last = int(values.mean("realization").notnull().sum()) - 1
-                axes.plot(run["time"][last], values.mean("realization")[last], "x", color=colour, markersize=5)
-    energy.legend(fontsize="x-small", loc="lower left")
+            mean = values.mean("realization").dropna("time")
+            axes.plot(mean["time"], mean, color=colour, label=name, **dashed)
+            axes.plot(mean["time"][-1:], mean[-1:], "x" if dashed else "", color=colour, markersize=5)
+    energy.legend(fontsize="xx-small", loc="lower left")
     tell_costs(costs, models)
     show_places(places, models)
     mark_panels(*panels)
@@ -35,26 +34,28 @@ def draw(data: dict[str, xr.Dataset]) -> Figure:
 
 
 def tell_costs(axes: Axes, models: xr.Dataset) -> None:
-    """Numbers of a whole run, mean over realizations, as a table."""
-    n, mean = models.attrs["n_particles"], models.mean("realization", numeric_only=True)
-    rows = [("", "$t_{end}$ (s)", "$C/N$", "CPU s", r"$\langle M \rangle$", r"$M_{\max}$")]
-    for name in models["model"].values:
-        of = mean.sel(model=name)
-        values = (of["stop_time"], 2 * of["events"] / n, of["cpu_time"], of["mean_cluster_size"], of["largest_cluster_size"])
-        rows.append((name, *(f"{float(value):.3g}" for value in values)))
-    axes.axis("off")
-    table = axes.table(rows, loc="center", edges="open", cellLoc="right", colWidths=[0.3, *[0.15] * 5])
-    table.auto_set_font_size(False)
-    table.set_fontsize(6.5)
+    """What a run to the end takes and leaves, mean over realizations; shades are logarithmic in each column."""
+    mean = models.drop_vars("stop_reason").mean("realization")
+    names = {"$C/N$": 2 * mean["events"] / models.attrs["n_particles"], "CPU s": mean["cpu_time"]}
+    names |= {r"$\langle M \rangle$": mean["mean_cluster_size"], r"$M_{\max}$": mean["largest_cluster_size"]}
+    values = np.stack([value.values for value in names.values()], axis=1)
+    shades_of = np.log(values / values.min(axis=0)) / np.maximum(np.log(values.max(axis=0) / values.min(axis=0)), 1e-9)
+    matrix(axes, 0.6 * shades_of, [[f"{value:.3g}" for value in row] for row in values], list(names), models["model"].values)
 
 
 def show_places(axes: Axes, models: xr.Dataset) -> None:
-    """The matrix of model and place."""
+    """The share of runs that collapse, for each model and place."""
     share = np.isfinite(models["collapse_time"]).mean("realization").transpose("model", "place").values
-    axes.imshow(1 - share, cmap="RdYlGn", vmin=-0.4, vmax=1.4, aspect="auto")
-    axes.set_xticks(range(models.sizes["place"]), models["place"].values, rotation=20, ha="right")
-    axes.set_yticks(range(models.sizes["model"]), models["model"].values)
-    axes.tick_params(length=0, labelsize="x-small")
-    for (row, column), value in np.ndenumerate(share):
-        axes.text(column, row, f"{value:.0%}", ha="center", va="center", fontsize="x-small")
-    axes.set_title("share of runs that collapse", fontsize="small")
+    texts = [[f"{value:.0%}" for value in row] for row in share]
+    matrix(axes, 0.6 * share, texts, [place.replace(" ", "\n") for place in models["place"].values], models["model"].values)
+    axes.set_xlabel("share of runs that collapse")
+
+
+def matrix(axes: Axes, shade: np.ndarray, texts: list[list[str]], columns: list[str], rows: list[str]) -> None:
+    """Texts on shaded fields."""
+    axes.imshow(shade, cmap="Blues", vmin=0, vmax=1, aspect="auto")
+    axes.set_xticks(range(len(columns)), columns)
+    axes.set_yticks(range(len(rows)), rows)
+    axes.tick_params(which="both", length=0, labelsize="x-small")
+    for row, column in np.ndindex(shade.shape):
+        axes.text(column, row, texts[row][column], ha="center", va="center", fontsize="x-small")

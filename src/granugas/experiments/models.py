@@ -17,7 +17,7 @@ GAS = Scene(1435, 0.226725, restitution=0.4, contact_time=0.0, lattice="triangul
 MODELS: dict[str, dict[str, Any]] = {
     "IHS": {},
     "TC": {"contact_time": 1e-5},
-    "TC, t_c(v)": {"contact_time": 1e-5, "contact_time_exponent": 1.0, "contact_velocity": 0.5},
+    "TC of velocity": {"contact_time": 1e-5, "contact_time_exponent": 1.0, "contact_velocity": 0.5},
     "critical distance": {"critical_distance": 1e-5},
     "viscoelastic": {"material": "viscoelastic", "viscosity": 0.5},
     "plastic": {"material": "plastic", "restitution": 0.95, "yield_velocity": 0.0155},
