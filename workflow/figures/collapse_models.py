@@ -27,9 +27,7 @@ def draw(data: dict[str, xr.Dataset]) -> Figure:
             axes.plot(mean["time"], mean, color=colour, label=name, **dashed)
             axes.plot(mean["time"][-1:], mean[-1:], "x" if dashed else "", color=colour, markersize=5)
     energy.legend(fontsize="xx-small", loc="lower left")
-    tell_costs(costs, models)
-    show_places(places, models)
-    mark_panels(*panels)
+    tell_costs(costs, models), show_places(places, models), mark_panels(*panels)
     return figure
 
 

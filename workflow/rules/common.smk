@@ -93,7 +93,8 @@ def begin(jobs):
     except OSError as error:
         sys.exit(f"output = {OUTPUT!r}: nothing can be written there ({error.strerror}); choose another folder.")
     pass_on_termination()
-    if any(job.rule.startswith(("equilibrate", "simulate", "clusters")) for job in jobs):
-        warm_up(f"{OUTPUT}/logs/warm_up.log", [run.scene for run in RUNS.values()])
-    simulations = {job: RUNS[job.outputs[0].stem].cost for job in jobs if job.rule.startswith("simulate")}
-    tell_progress(simulations, STARTED)
+    runs = {job: RUNS[job.outputs[0].stem] for job in jobs if job.rule.startswith("simulate")}
+    started = [STATES[job.outputs[0].stem] for job in jobs if job.rule == "equilibrate"]
+    if scenes := [run.scene for run in (*runs.values(), *started)]:
+        warm_up(f"{OUTPUT}/logs/warm_up.log", scenes)
+    tell_progress({job: run.cost for job, run in runs.items()}, STARTED)
