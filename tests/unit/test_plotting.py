@@ -55,7 +55,8 @@ def study(realizations=2, clusters=False, **grid):
             **{name: (dims[:-1], np.full(shape, value)) for name, value in once.items()},
         },
         coords=grid | {"time": time, "realization": np.arange(realizations), "snapshot": [0.1, 5.0]},
-        attrs={"area_fraction": 0.25, "diameter": 0.05, "velocity_half_width": 0.5, "dimensions": 2} | SMOOTH,
+        attrs={"area_fraction": 0.25, "diameter": 0.05, "velocity_half_width": 0.5, "dimensions": 2, "boundary": "periodic"}
+        | SMOOTH,
     )
     if clusters:
         factors = np.array([1.05, 1.1, 1.2, 1.3, 1.4])

@@ -164,7 +164,7 @@ def test_what_cannot_be_pooled_is_refused(make_run):
         pool([], ["restitution"])
     with pytest.raises(ValueError, match=r"restitution = 0\.4, realization = 1: 2 parts have this place"):
         pool([make_run(0), make_run(1), make_run(1)], ["restitution"])
-    with pytest.raises(KeyError, match="gravity: no attribute"):
-        pool([make_run(0)], ["gravity"])
+    with pytest.raises(KeyError, match="charge: no attribute"):
+        pool([make_run(0)], ["charge"])
     with pytest.raises(KeyError, match="temperature: no such variable"):
         pool([make_run(0).assign(temperature=1.0)], ["restitution"])
