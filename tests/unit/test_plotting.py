@@ -23,7 +23,7 @@ from granugas.analysis.statistics import fit_power_law
 
 FIGURES = Path(__file__).parents[2] / "workflow" / "figures"
 NAMES = sorted(path.stem for path in FIGURES.glob("*.py"))
-SMOOTH = {"material": "constant", "tangential_restitution": -1.0, "friction": np.inf}
+SMOOTH = {"material": "constant", "tangential_restitution": -1.0, "friction": np.inf, "boundary": "periodic"}
 
 
 def study(realizations=2, clusters=False, **grid):
