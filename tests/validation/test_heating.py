@@ -57,4 +57,6 @@ def test_energy_and_momentum(restitution, sizes):
         before, put_in = energy, put_in + tally.more["energy_input"]
         assert np.abs(mass @ state.velocity).max() <= 1e-12 * np.sqrt(2 * energy * 200)
     assert engine.backwards == 0
-    assert put_in / 200 == pytest.approx(scene.heating * engine.time, rel=0.1)
+    given = 200 * scene.heating * engine.time
+    scatter = np.sqrt(2 * before / 200 / given)  # of the sum of v dv over independent kicks, at the temperature of the end
+    assert put_in == pytest.approx(given, rel=3 * scatter)

@@ -15,7 +15,7 @@ STUDY = {
 
 
 def test_beads_disks_and_spheres(project: Project) -> None:
-    project.configure(studies={"spaces": STUDY})
+    project.configure(studies={"spaces": STUDY}, figures=["study_spaces"])
     project.build("--", "all", "check")
     results = project.folder / "results"
     data = read(results / "studies/spaces.nc")
