@@ -51,7 +51,7 @@ WRONG = [
     ),
     (GRID % "contact_time: -1.0e-5", "studies.scan.grid.contact_time", "-1e-05", ">= 0 s"),
     (GRID % "contact_time: .inf", "studies.scan.grid.contact_time", "inf", ">= 0 s"),
-    (GRID % "contact_time: [[1.0e-5]]", "studies.scan.grid.contact_time", "[1e-05]", "restitution = 1 only"),
+    (GRID % "contact_time: [[1.0e-5]]", "studies.scan.grid.contact_time", "[1e-05]", "a number >= 0 s"),
     (GRID % "n_particles: 100.0", "studies.scan.grid.n_particles", "100.0", "an integer from 1 to 10000000"),
     (GRID % "n_particles: 0", "studies.scan.grid.n_particles", "0", "an integer from 1 to 10000000"),
     (GRID % "n_particles: '100'", "studies.scan.grid.n_particles", "'100'", "as a number write 100"),
@@ -68,10 +68,10 @@ WRONG = [
     (STUDY % "scene: {boundary: open}", "studies.scan.scene.boundary", "'open'", "allowed are periodic"),
     (STUDY % "scene: {aspect_ratio: -1}", "studies.scan.scene.aspect_ratio", "-1", "> 0"),
     (
-        STUDY % "scene: {gravity: 9.81}",
-        "studies.scan.scene.gravity",
+        STUDY % "scene: {gravitation: 9.81}",
+        "studies.scan.scene.gravitation",
         "9.81",
-        "allowed are aspect_ratio, boundary, dimensions",
+        "unknown key, did you mean gravity? allowed are aspect_ratio, boundary, ",
     ),
     (
         STUDY % "grid: {aspect_ratio: 2}, scene: {aspect_ratio: 1}",
