@@ -87,7 +87,7 @@ def write_all(folder: Path) -> None:
 def plain(tmp_path_factory) -> Path:
     folder = tmp_path_factory.mktemp("plain")
     environment = os.environ | {"NUMBA_DISABLE_JIT": "1", "PYTHONPATH": str(Path(__file__).parents[2])}
-    subprocess.run([sys.executable, "-W", "error", __file__, str(folder)], check=True, env=environment, timeout=120)
+    subprocess.run([sys.executable, "-W", "error", __file__, str(folder)], check=True, env=environment, timeout=600)
     return folder
 
 
