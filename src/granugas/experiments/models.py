@@ -1,6 +1,7 @@
 """Every collision model from one start state, and where each ends in a collapse (A section 3)."""
 
 from dataclasses import replace
+from functools import cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -74,8 +75,9 @@ def measure(plan: Plan = FULL) -> xr.Dataset:
         stop_reason, stop_time, events, cpu_time; mean_cluster_size and largest_cluster_size at the end. Over model, place and
         realization: collapse_time (s), infinite where nothing collapsed, and place_collisions of a particle until the end.
     """
-    cooling = _over("model", [_cooling(scene_of(model), plan) for model in plan.models])
-    places = _over("model", [_over("place", [_stay(scene_of(m, p), plan) for p in plan.places]) for m in plan.models])
+    cooling = xr.concat([_cooling(scene_of(model), plan) for model in plan.models], "model")
+    stays = [xr.concat([_stay(scene_of(m, p), plan) for p in plan.places], "place") for m in plan.models]
+    places = xr.concat(stays, "model")
     labels = {"model": list(plan.models), "place": list(plan.places)}
     data = xr.merge([cooling, places]).assign_coords(labels)
     return data.assign_attrs({key: getattr(GAS, key) for key in ("n_particles", "area_fraction", "restitution", "diameter")})
@@ -86,17 +88,19 @@ def scene_of(model: str, place: str | None = None) -> Scene:
     return replace(GAS, **((PLACES[place] if place else {}) | MODELS[model]))
 
 
-def _over(name: str, parts: list[xr.Dataset]) -> xr.Dataset:
-    return xr.concat(parts, name)
-
-
 def _cooling(scene: Scene, plan: Plan) -> xr.Dataset:
-    return _over("realization", [_run(scene, k, plan) for k in range(plan.realizations)])
+    return xr.concat([_run(scene, k, plan) for k in range(plan.realizations)], "realization")
+
+
+@cache
+def _start(scene: Scene, realization: int) -> xr.Dataset:
+    """The start state that all models share; `scene` is that of its equilibration."""
+    return equilibrate(scene, seed=SEED, realization=realization)
 
 
 def _run(scene: Scene, realization: int, plan: Plan) -> xr.Dataset:
     """One gas until the end of its time, and its clusters then."""
-    start = equilibrate(scene, seed=SEED, realization=realization)
+    start = _start(scene.at_start(), realization)
     limits = {"time": plan.until, "collisions_per_particle": 10 * plan.collisions}
     run = simulate(scene, limits, state=start, samples=SAMPLES, keep_positions=True, progress=False)
     last = int(run["kinetic_energy"].notnull().sum()) - 1
@@ -112,7 +116,7 @@ def _stay(scene: Scene, plan: Plan) -> xr.Dataset:
     ends = []
     for k in range(plan.realizations):
         limits = {"time": plan.stay, "collisions_per_particle": plan.collisions}
-        start = equilibrate(scene, seed=SEED, realization=k)
+        start = _start(scene.at_start(), k)
         run = simulate(scene, limits, state=start, samples={"count": 2}, keep_positions=False, progress=False)
         collapsed = run["stop_reason"].item() == "inelastic_collapse"
         ends.append((float(run["stop_time"]) if collapsed else np.inf, 2 * float(run["events"]) / scene.n_particles))
