@@ -1,127 +1,24 @@
 """A scene: what is simulated, as pure data that is checked when it is made."""
 
 import math
-from collections.abc import Callable, Mapping
-from dataclasses import asdict, dataclass, field, fields
-from numbers import Integral, Real
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, fields
 from typing import Any
 
-from granugas.geometry import CLOSE_PACKING, box_volume
+from granugas.combinations import refuse_what_does_not_go_together
+from granugas.geometry import box_volume
+from granugas.keys import EXTREME, SceneError, area_fraction_key, boundary_key, choice, contact_time_key, integer, number
 
 MAX_PARTICLES = 10_000_000
-EXTREME = 1.0e50
-"""Beyond it and its inverse lengths, velocities and fractions overflow where they are squared and divided."""
 
 MOST_SLENDER = 1.0e4
 """Ratio of the sides of a box, either way."""
 
 LATTICES = ("auto", "triangular", "square", "cubic", "fcc")
-LATTICES_IN = {1: ("auto",), 2: ("auto", "triangular", "square"), 3: ("auto", "cubic", "fcc")}
-"""Start lattices, and those that there are in so many dimensions."""
+"""Start lattices."""
 
 MOST_MODES = 100
 """Of a particle."""
-
-MOST_VISCOUS = 5 / (6 * 1.15344)
-"""A u^(1/5) = .7225, where the coefficient of restitution of viscoelastic spheres is least, 7/12 (physics: A section 3.iv)."""
-
-FASTEST = 2 * math.sqrt(3)
-"""A normal relative velocity at t = 0, by w: three times the root mean square; one of 8000 collisions is faster."""
-
-
-class SceneError(ValueError):
-    """A value that a scene cannot have; says key, value and what is allowed."""
-
-    def __init__(self, key: str, value: Any, allowed: str) -> None:
-        super().__init__(f"{key} = {value!r}: {allowed}")
-        self.key, self.value, self.allowed = key, value, allowed
-
-
-# --- what a key may hold --------------------------------------------------------------------------------------------------
-
-
-def _key(default: Any, check: Callable[[str, Any], None], *, start: bool = False) -> Any:
-    """A key of a scene: its default, what it may hold, and whether the start state depends on it."""
-    return field(default=default, metadata={"check": check, "start": start})
-
-
-def integer(default: int, low: int, high: int, **how: bool) -> Any:
-    """A key that holds an integer from `low` to `high`."""
-
-    def check(key: str, value: Any) -> None:
-        if isinstance(value, bool) or not isinstance(value, Integral) or not low <= value <= high:
-            raise SceneError(key, value, f"allowed is an integer from {low} to {high}")
-
-    return _key(default, check, **how)
-
-
-def number(
-    default: float,
-    *,
-    at_least: float | None = None,
-    above: float | None = None,
-    at_most: float = math.inf,
-    within: float = math.inf,
-    endless: bool = False,
-    unit: str = "",
-    **how: bool,
-) -> Any:
-    """A key that holds a number of this range, a finite one unless `endless`; `within`: a factor, up to which it and its
-    inverse may go."""
-    low = f">= {at_least:g}" if at_least is not None else f"> {above:g}"
-    high = f" and <= {at_most:.6g}" if at_most < math.inf else ""
-    allowed = f"allowed is a number {low}{high}{', or .inf' if endless else ''}{' ' if unit else ''}{unit}"
-
-    def check(key: str, value: Any) -> None:
-        limited = isinstance(value, Real) and (math.isfinite(value) or (endless and value == math.inf))
-        if isinstance(value, bool) or not limited:
-            raise SceneError(key, value, allowed)
-        if (at_least is not None and value < at_least) or (above is not None and value <= above) or value > at_most:
-            raise SceneError(key, value, allowed)
-        if within < math.inf and not 1 / within <= value <= within:
-            raise SceneError(key, value, f"allowed is a number from {1 / within:g} to {within:g}")
-
-    return _key(default, check, **how)
-
-
-def choice(default: Any, *others: Any, **how: bool) -> Any:
-    """A key that holds one of a few words or integers."""
-
-    def check(key: str, value: Any) -> None:
-        if isinstance(value, bool) or not isinstance(value, (str, int)) or value not in (default, *others):
-            raise SceneError(key, value, f"allowed are {', '.join(map(str, (default, *others)))}")
-
-    return _key(default, check, **how)
-
-
-def _area_fraction(default: float) -> Any:
-    """The key of nu, which close packing bounds: how, depends on the dimensions."""
-    return _key(default, lambda key, value: None, start=True)
-
-
-def _contact_time(default: float) -> Any:
-    """The key of t_c: a number, or several."""
-    check_number = number(default, at_least=0.0, unit="s").metadata["check"]
-
-    def check(key: str, value: Any) -> None:
-        for time in value if isinstance(value, tuple) else (value,):
-            check_number(key, time)
-
-    return _key(default, check)
-
-
-def _boundary(default: str) -> Any:
-    """The key of what lies at the edge of the box: a word for all axes, or one for each."""
-
-    def check(key: str, value: Any) -> None:
-        if not isinstance(value, str) or not value.split() or not set(value.split()) <= {"periodic", "wall"}:
-            allowed = "allowed are periodic, wall, or one of the two for each axis of space, separated by a blank"
-            raise SceneError(key, value, allowed)
-
-    return _key(default, check, start=True)
-
-
-# --- the scene ------------------------------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
@@ -172,15 +69,15 @@ class Scene:
     """
 
     n_particles: int = integer(5740, 1, MAX_PARTICLES, start=True)
-    area_fraction: float = _area_fraction(0.2267)
+    area_fraction: float = area_fraction_key(0.2267)
     restitution: float = number(0.4, at_least=0.0, at_most=1.0)
-    contact_time: float | tuple[float, ...] = _contact_time(1.0e-5)
+    contact_time: float | tuple[float, ...] = contact_time_key(1.0e-5)
     diameter: float = number(1.0e-3, above=0.0, within=EXTREME, unit="m", start=True)
     velocity_half_width: float = number(0.5, above=0.0, within=EXTREME, unit="m/s", start=True)
     dynamics: str = choice("events")
     lattice: str = choice(*LATTICES, start=True)
     dimensions: int = choice(2, 1, 3, start=True)
-    boundary: str = _boundary("periodic")
+    boundary: str = boundary_key("periodic")
     aspect_ratio: float = number(1.0, above=0.0, within=MOST_SLENDER, start=True)
     tangential_restitution: float = number(-1.0, at_least=-1.0, at_most=1.0)
     friction: float = number(math.inf, at_least=0.0, endless=True)
@@ -213,105 +110,11 @@ class Scene:
             object.__setattr__(self, "contact_time", tuple(self.contact_time))
         for key in SCENE_KEYS:
             check_value(key, getattr(self, key))
-        self._refuse_what_does_not_go_together()
-
-    def _refuse_what_does_not_go_together(self) -> None:
-        packed = number(0.0, above=0.0, at_most=CLOSE_PACKING[self.dimensions], unit="(close packing)", within=EXTREME)
-        packed.metadata["check"]("area_fraction", self.area_fraction)
-        if self.lattice not in LATTICES_IN[self.dimensions]:
-            allowed = f"in {self.dimensions} dimensions allowed are {', '.join(LATTICES_IN[self.dimensions])}"
-            raise SceneError("lattice", self.lattice, allowed)
-        if self.dimensions == 1 and self.aspect_ratio != 1:
-            raise SceneError("aspect_ratio", self.aspect_ratio, "allowed is 1 in one dimension: a line has one side")
-        if self.dimensions == 1 and self.tangential_restitution > -1:
-            allowed = "beads on a line touch head on, nothing rubs: allowed is -1 at dimensions = 1"
-            raise SceneError("tangential_restitution", self.tangential_restitution, allowed)
-        if isinstance(self.contact_time, tuple):
-            if self.dissipates or not self.contact_time:
-                allowed = "a list (not empty) is allowed at restitution = 1 only, and for smooth surfaces"
-                raise SceneError("contact_time", self.contact_time, allowed)
-            object.__setattr__(self, "contact_time", tuple(map(float, self.contact_time)))
-        if self.heating > 0 and self.n_particles == 1:
-            raise SceneError(
-                "heating", self.heating, "allowed at n_particles = 1 is 0, as kicks leave the centre of mass alone"
-            )
-        self._refuse_walls_that_are_none()
-        self._refuse_materials_that_are_none()
-        self._refuse_models_that_are_none()
-        self._refuse_clusters_of_anything_but_beads()
-
-    def _refuse_walls_that_are_none(self) -> None:
+        refuse_what_does_not_go_together(self)
         words = self.boundary.split()
-        if len(words) not in (1, self.dimensions):
-            allowed = f"allowed is one word for all axes, or one for each of the {self.dimensions}"
-            raise SceneError("boundary", self.boundary, allowed)
         object.__setattr__(self, "boundary", words[0] if len(set(words)) == 1 else " ".join(words))
-        wall, floor, moving = any(self.walled), self.walled[-1], self.floor != "still"
-        needs = {"wall_restitution": wall, "wall_contact_time": wall, "gravity": floor, "floor": floor}
-        for key, there in needs.items():
-            value = getattr(self, key)
-            if not there and value != DEFAULTS[key]:
-                where = "along the last axis" if key in ("gravity", "floor") else "of the box"
-                raise SceneError(key, value, f"allowed is {DEFAULTS[key]} without a wall {where} (boundary = {self.boundary})")
-        for key in ("floor_amplitude", "floor_frequency"):
-            value = getattr(self, key)
-            if moving != (value > 0):
-                raise SceneError(key, value, "allowed is a number > 0 where the floor moves (floor), and 0 where it does not")
-        if self.wall_restitution == 0 and (self.gravity > 0 or moving):
-            allowed = (
-                "allowed is a number > 0 with gravity or a floor in motion: a particle that sticks to it has no next collision"
-            )
-            raise SceneError("wall_restitution", self.wall_restitution, allowed)
-
-    def _refuse_materials_that_are_none(self) -> None:
-        for key, material in (("viscosity", "viscoelastic"), ("yield_velocity", "plastic")):
-            value, named = getattr(self, key), self.material == material
-            if named != (value > 0):
-                raise SceneError(key, value, f"allowed is a number > 0 with material = {material}, and 0 without")
-        if self.material != "constant" and self.restitution == 1:
-            raise SceneError("restitution", self.restitution, f"allowed is less than 1: material = {self.material} dissipates")
-        fastest = FASTEST * self.velocity_half_width
-        if self.viscosity * fastest**0.2 > MOST_VISCOUS:
-            allowed = f"allowed is at most {MOST_VISCOUS / fastest**0.2:.4g}, where r of collisions at {fastest:g} m/s is least"
-            raise SceneError("viscosity", self.viscosity, allowed)
-
-    def _refuse_models_that_are_none(self) -> None:
-        exponent, lasts = self.contact_time_exponent, self.dissipates and any(self.contact_times)
-        if exponent and not lasts:
-            allowed = "allowed is 0 without a contact_time > 0 and a restitution < 1"
-            raise SceneError("contact_time_exponent", exponent, allowed)
-        if (self.contact_velocity > 0) != (exponent > 0):
-            allowed = "allowed is a number > 0 with a contact_time_exponent > 0, and 0 without"
-            raise SceneError("contact_velocity", self.contact_velocity, allowed)
-        if self.critical_distance > self.diameter:
-            allowed = f"allowed is at most the diameter, {self.diameter:g} m"
-            raise SceneError("critical_distance", self.critical_distance, allowed)
-        if self.rotation_angle and self.dimensions == 1:
-            raise SceneError("rotation_angle", self.rotation_angle, "allowed is 0 in one dimension, where nothing can turn")
-        if (self.kick_velocity > 0) != (self.kick_energy > 0):
-            raise SceneError("kick_energy", self.kick_energy, "allowed is a number > 0 with a kick_velocity > 0, and 0 without")
-        if self.kick_energy and self.restitution == 1:
-            raise SceneError("kick_energy", self.kick_energy, "allowed is 0 at restitution = 1, where no energy is lost")
-        if self.mode_damping and not self.internal_modes:
-            raise SceneError("mode_damping", self.mode_damping, "allowed is 0 without internal_modes")
-        longest = max(self.contact_times)
-        if self.mode_damping * longest >= 1:
-            allowed = f"allowed is less than {1 / longest:g} 1/s: modes ring longer than a contact_time of {longest:g} s"
-            raise SceneError("mode_damping", self.mode_damping, allowed)
-
-    def _refuse_clusters_of_anything_but_beads(self) -> None:
-        if self.lrv_velocity == 0:
-            return
-        others = [key for key in SCENE_KEYS if key not in LRV_KEYS and getattr(self, key) != DEFAULTS[key]]
-        reasons = {
-            "unless dimensions = 1: only beads on a line pass impacts on one by one": self.dimensions != 1,
-            "at restitution = 1, where no energy is lost": self.restitution == 1,
-            f"with contact_time = {self.contact_time!r}: slow contacts merge, none of them lasts": self.contact_time != 0,
-            f"with {', '.join(others)}: the model knows equal beads on a ring and nothing else": bool(others),
-        }
-        for reason, holds in reasons.items():
-            if holds:
-                raise SceneError("lrv_velocity", self.lrv_velocity, f"allowed is 0 {reason}")
+        if isinstance(self.contact_time, tuple):
+            object.__setattr__(self, "contact_time", tuple(map(float, self.contact_time)))
 
     @property
     def walled(self) -> tuple[bool, ...]:
@@ -372,12 +175,6 @@ SCENE_KEYS = tuple(key.name for key in fields(Scene))
 
 DEFAULTS = {key.name: key.default for key in fields(Scene)}
 """What keys hold that nobody names."""
-
-LRV_KEYS = (
-    *("n_particles", "area_fraction", "restitution", "contact_time", "diameter", "velocity_half_width", "dynamics"),
-    *("lattice", "dimensions", "lrv_velocity"),
-)
-"""Keys that scenes with an lrv_velocity may name."""
 
 CHECKS = {key.name: key.metadata["check"] for key in fields(Scene)}
 

@@ -2,6 +2,7 @@
 
 import math
 import time
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -9,7 +10,7 @@ import numpy as np
 import xarray as xr
 
 from granugas.dynamics.events.engine import Engine
-from granugas.experiments.effects import PLAIN, ROWS, start_of
+from granugas.experiments.effects import FEW, PLAIN, ROWS, start_of
 
 ALONE = ("the time of a collision",)
 
@@ -28,31 +29,40 @@ class Size(NamedTuple):
     repetitions: int
 
 
-FULL = (Size(5740, 10.0, 31), Size(79524, 5.0, 9))
-SMALL = (Size(500, 10.0, 3), Size(2000, 10.0, 3))
+class Plan(NamedTuple):
+    """How much is measured: sizes of the gases, and which of NAMED."""
+
+    sizes: tuple[Size, ...]
+    names: tuple[str, ...] = tuple(NAMED)
 
 
-def measure(plan: tuple[Size, ...] = FULL) -> xr.Dataset:
+FULL = Plan((Size(5740, 10.0, 31), Size(79524, 5.0, 9)))
+SMALL = Plan((Size(500, 10.0, 3), Size(2000, 10.0, 3)), FEW)
+
+
+def measure(plan: Plan = FULL) -> xr.Dataset:
     """Processor time of a collision, of gases that all begin their repetitions anew with the same engines.
 
     Returns:
         Dataset over effect, n_particles and repetition (NaN where a size has fewer): cpu_per_collision in ns; and cpu_added,
         what it is more than that of the plain gas in the same repetition. Compilation is not in it.
     """
-    most = max(size.repetitions for size in plan)
-    costs = [np.pad(timed(size), ((0, 0), (0, most - size.repetitions)), constant_values=np.nan) for size in plan]
+    most = max(size.repetitions for size in plan.sizes)
+    costs = [
+        np.pad(timed(size, plan.names), ((0, 0), (0, most - size.repetitions)), constant_values=np.nan) for size in plan.sizes
+    ]
     cost = xr.DataArray(
         np.stack(costs, axis=1),
-        {"effect": list(NAMED), "n_particles": [size.n_particles for size in plan], "repetition": np.arange(most)},
+        {"effect": list(plan.names), "n_particles": [size.n_particles for size in plan.sizes], "repetition": np.arange(most)},
         ("effect", "n_particles", "repetition"),
     )
     added = cost - cost.sel(effect=PLAIN_NAME, drop=True)
     return xr.Dataset({"cpu_per_collision": cost, "cpu_added": added}, attrs={"plain": PLAIN_NAME})
 
 
-def timed(size: Size) -> np.ndarray:
+def timed(size: Size, names: Sequence[str]) -> np.ndarray:
     """(effects, repetitions) ns per collision."""
-    scenes = [replace(scene, n_particles=size.n_particles) for scene in NAMED.values()]
+    scenes = [replace(NAMED[name], n_particles=size.n_particles) for name in names]
     engines = [Engine(scene, start_of(scene)) for scene in scenes]
     begun = [{name: rows.copy() for name, rows in engine.arrays.items()} for engine in engines]
     collisions = math.ceil(size.collisions * size.n_particles / 2)

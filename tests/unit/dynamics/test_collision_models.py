@@ -7,6 +7,7 @@ import pytest
 from gases import lattice_gas
 from numba import njit
 
+from granugas.combinations import MOST_VISCOUS
 from granugas.dynamics.events.collisions import Then, collide
 from granugas.dynamics.events.effects import called_by, modules_of
 from granugas.dynamics.events.effects.constant import Constant
@@ -20,7 +21,7 @@ from granugas.dynamics.events.effects.viscoelastic import effect_of as viscoelas
 from granugas.dynamics.events.engine import Engine
 from granugas.dynamics.events.randomness import stream, uniform
 from granugas.equilibrate import at_rest
-from granugas.scene import MOST_VISCOUS, Scene
+from granugas.scene import Scene
 
 MODELS = {
     "viscoelastic": {"material": "viscoelastic", "viscosity": 0.5},

@@ -27,9 +27,12 @@ def test_theory_and_what_is_conserved(row):
 
 @pytest.fixture(scope="module")
 def measured() -> xr.Dataset:
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(effects, "ROWS", effects.ROWS[:4])
-        return describe(effects.measure(effects.SMALL))
+    return describe(effects.measure(effects.SMALL))
+
+
+def test_a_plan_names_its_rows(measured):
+    assert measured["effect"].values.tolist() == list(effects.FEW)
+    assert effects.FULL.names is None
 
 
 def test_there_is_a_row_for_each_effect_file():

@@ -10,7 +10,7 @@ from granugas.storage.variables import describe
 
 @pytest.fixture(scope="module")
 def measured():
-    return describe(effects_cost.measure((effects_cost.Size(500, 5.0, 3), effects_cost.Size(1000, 2.0, 2))))
+    return describe(effects_cost.measure(effects_cost.Plan((effects_cost.Size(500, 5.0, 3), effects_cost.Size(1000, 2.0, 2)))))
 
 
 def test_every_effect_of_the_loop_is_timed(measured):
@@ -53,7 +53,7 @@ def test_repetitions_follow_the_same_collisions(monkeypatch):
             return why
 
     monkeypatch.setattr(effects_cost, "Engine", Remembering)
-    effects_cost.timed(effects_cost.Size(100, 4.0, 3))
+    effects_cost.timed(effects_cost.Size(100, 4.0, 3), tuple(effects_cost.NAMED))
     assert len(ends) == len(effects_cost.NAMED)
     assert all(len(found) == 3 and len(set(found)) == 1 for found in ends.values())
     assert {found[0][0] for found in ends.values()} == {200}
