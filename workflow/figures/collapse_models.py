@@ -5,7 +5,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from granugas.plotting import PAGE, mark_panels, shades, styled
+from granugas.plotting import MARKERS, PAGE, mark_panels, styled
 
 STUDIES = ()
 EXPERIMENTS = ("models",)
@@ -19,14 +19,15 @@ def draw(data: dict[str, xr.Dataset]) -> Figure:
     panels = energy, spent, costs, places = figure.subplots(2, 2).ravel()
     energy.set(xscale="log", yscale="log", xlabel="$t$ (s)", ylabel="$K$")
     spent.set(xscale="log", yscale="log", xlabel="$t$ (s)", ylabel="$C/N$")
-    for name, colour in zip(models["model"].values, shades(models.sizes["model"]), strict=True):
+    for k, name in enumerate(models["model"].values):
         run = models.sel(model=name).isel(time=slice(1, None))
-        dashed = {"linestyle": "--"} if (run["stop_reason"] == "inelastic_collapse").all() else {}
+        collapses = (run["stop_reason"] == "inelastic_collapse").all()
+        look = {"color": f"C{k % 7}", "linestyle": "--" if collapses else "-", "markevery": (4 + k, 12), "markersize": 3}
         for axes, values in ((energy, run["kinetic_energy"]), (spent, run["collisions_per_particle"])):
             mean = values.mean("realization").dropna("time")
-            axes.plot(mean["time"], mean, color=colour, label=name, **dashed)
-            axes.plot(mean["time"][-1:], mean[-1:], "x" if dashed else "", color=colour, markersize=5)
-    energy.legend(fontsize="xx-small", loc="lower left")
+            axes.plot(mean["time"], mean, label=name, marker=MARKERS[k], linewidth=0.9, **look)
+            axes.plot(mean["time"][-1:], mean[-1:], "x" if collapses else "", color=look["color"], markersize=6)
+    spent.legend(fontsize="xx-small", loc="upper left")
     tell_costs(costs, models), show_places(places, models), mark_panels(*panels)
     return figure
 
