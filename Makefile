@@ -3,7 +3,7 @@ PYTHON ?= python3
 CORES ?= 2
 VENV := .venv/bin
 SNAKEMAKE := $(VENV)/snakemake --cores $(CORES)
-PYTEST := SLURM_CONF=/dev/null MPLBACKEND=Agg $(VENV)/python -m pytest
+PYTEST := SLURM_CONF=/dev/null MPLBACKEND=Agg $(VENV)/python -m pytest -n $(CORES) --dist loadfile
 
 .PHONY: help figures preview test test-full bench gallery prune lint lock clean
 

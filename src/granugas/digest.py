@@ -88,6 +88,12 @@ def physics(effects: tuple[str, ...] = ("granugas.dynamics.events.effects.*", "g
     return digest((*EVENTS, *effects))
 
 
+@cache
+def experiment(name: str) -> str:
+    """The digest of an experiment, of those that it takes scenes or functions from, and of what all of them may run."""
+    return digest((*_with_imported(f"granugas.experiments.{name}"), *EVENTS, *KERNELS))
+
+
 def use_kernel_cache() -> None:
     """Let compiled kernels be kept in `kernel_cache_directory()`; call it before functions are compiled.
 
@@ -127,6 +133,20 @@ def forget_kernels() -> None:
     chosen = os.environ.get("NUMBA_CACHE_DIR")
     if not chosen or _is_kernel_cache(Path(chosen)):
         shutil.rmtree(chosen or kernel_cache_directory(), ignore_errors=True)
+
+
+def _with_imported(module: str) -> set[str]:
+    """A module and those beside it in its package that it imports, directly or not."""
+    package, found = module.rpartition(".")[0], set()
+    waiting = [module]
+    while waiting:
+        name = waiting.pop()
+        found.add(name)
+        for _, path in _source_files(name):
+            nodes = ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+            names = {node.module or "" for node in nodes if isinstance(node, ast.ImportFrom)}
+            waiting += {name for name in names if name.startswith(f"{package}.")} - found
+    return found
 
 
 def _source_files(module: str) -> list[tuple[str, Path]]:

@@ -144,6 +144,13 @@ def test_an_effect_counts_where_a_scene_calls_for_it():
     assert len({sources.physics(called), sources.physics(modules_of(elastic)), sources.physics()}) == 3
 
 
+def test_an_experiment_depends_on_those_that_it_draws_on():
+    assert sources._with_imported("granugas.experiments.column") == {"granugas.experiments.column"}
+    both = {"granugas.experiments.effects", "granugas.experiments.effects_cost"}
+    assert sources._with_imported("granugas.experiments.effects_cost") == both
+    assert len({sources.experiment(name) for name in ("effects", "effects_cost", "column")}) == 3
+
+
 def test_every_compiled_function_is_covered():
     compiled = {"numba", "granugas.dynamics.events.composition"}
     paths = [path for path in sources.SOURCES.rglob("*.py") if not compiled.isdisjoint(names_imported(path))]

@@ -48,7 +48,7 @@ rule experiment:
     log:
         f"{OUTPUT}/logs/experiments/{{experiment}}.log",
     params:
-        physics=lambda wildcards: digest.digest([f"granugas.experiments.{wildcards.experiment}", *digest.KERNELS]),
+        physics=lambda wildcards: digest.experiment(wildcards.experiment),
         small=STUDIES.small_experiments,
     threads: lambda wildcards: workflow.cores if studies.runs_alone(EXPERIMENTS / f"{wildcards.experiment}.py") else 1
     script:
