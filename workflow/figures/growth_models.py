@@ -29,7 +29,8 @@ def bars(axes: Axes, place: int, t: xr.DataArray, sizes: xr.DataArray, colour: s
     fit = fit_power_law(t, sizes, growth_window(t, sizes))
     reach = np.nan_to_num(np.abs(np.array(fit.interval) - fit.exponent))[:, np.newaxis]
     axes.errorbar(fit.exponent, place, xerr=reach, fmt="o", color=colour, capsize=2)
-    return f"{fit.window[0]:.2g} to {fit.window[1]:.2g} s"
+    begin, end = (float(f"{time:.2g}") for time in fit.window)
+    return f"{begin:g} to {end:g} s"
 
 
 @styled
@@ -52,9 +53,8 @@ def draw(data: dict[str, xr.Dataset]) -> Figure:
     growth.set_yticks([], minor=True)
     local.axhline(0.3, color="0.35", linewidth=0.6, zorder=0)
     fits.axvline(0.3, color="0.35", linewidth=0.6, zorder=0)
-    fits.set(xlabel=rf"exponent of $\langle M \rangle$, $S_c = {FACTOR:g}$", xlim=(-0.3, 1.0))
-    fits.set_yticks(range(len(names)), names)
+    fits.set(xlabel=rf"exponent of $\langle M \rangle$, $S_c = {FACTOR:g}$", xlim=(-0.1, 0.7))
+    fits.set(yticks=range(len(names)), yticklabels=names, ylim=(len(names) - 0.4, -0.6))
     fits.set_yticks([], minor=True)
-    fits.set_ylim(len(names) - 0.4, -0.6)
     mark_panels(*panels)
     return figure
