@@ -275,6 +275,12 @@ VARIABLES = {
     "code_lines": Variable("1", "lines of code that are the effect, without comments and docstrings"),
     "repetition": Variable("1", "number of the repetition"),
     "cpu_per_collision": Variable("ns", "processor time of a collision"),
+    "statistic": Variable("1", "statistic of the rounds that were timed"),
+    "cpu_by_size": Variable("ns", "processor time of a collision of elastic disks"),
+    "cpu_by_area_fraction": Variable("ns", "processor time of a collision of elastic disks"),
+    "cpu_by_contact_time": Variable("ns", "processor time of a collision in a whole run"),
+    "cpu_while_clustering": Variable("ns", "processor time of a collision since the time before"),
+    "run_collisions": Variable("1", "collisions of a particle in a whole run", "C/N"),
     "cpu_added": Variable("ns", "processor time of a collision beyond that of elastic disks in the same repetition"),
 }
 
