@@ -15,7 +15,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from types import FrameType
-from typing import NamedTuple
+from typing import NamedTuple, TextIO
 
 from granugas.digest import forget_kernels
 from granugas.dynamics.events.effects import called_by
@@ -163,23 +163,33 @@ def pass_on_termination() -> None:
         signal.signal(signal.SIGTERM, pass_on)
 
 
-def warm_up(log: str | Path, scenes: Iterable[Scene]) -> None:
-    """Compile the kernels of these scenes in a process of its own, so that jobs that start together find them compiled.
+def warm_up(log: str | Path, scenes: Iterable[Scene], processes: int = 1) -> None:
+    """Compile the kernels of these scenes in processes of their own, so that jobs that start together find them compiled.
 
-    No rule does this: compiled kernels belong to the machine, not to the results. Where it fails it tries once more
-    without the kernels that are there, which may be damaged; where that fails the jobs fail too, and say so in their logs.
-    Where it was killed the kernels are not to blame.
+    The first kind of scene goes first, as the others share much with it. No rule does this: compiled kernels belong to the
+    machine, not to the results. Where it fails it tries once more without the kernels that are there, which may be damaged;
+    where that fails the jobs fail too, and say so in their logs. Where it was killed the kernels are not to blame.
     """
     Path(log).parent.mkdir(parents=True, exist_ok=True)
+    kinds = [*{(scene.dimensions, *called_by(scene).values()): scene for scene in scenes}.values()]  # same kernels, same kind
+    shares = [kinds[1 + k :: processes] for k in range(processes)]
     with open(log, "w") as file:
-        kinds = {(scene.dimensions, *called_by(scene).values()): scene for scene in scenes}  # same kernels, same kind
-        values = [scene.as_dict() for scene in kinds.values()]
-        program = f"from math import inf; from granugas import Scene, warm_up; warm_up([Scene(**v) for v in {values!r}])"
-        command = [sys.executable, "-c", program]
-        code = subprocess.run(command, stdout=file, stderr=subprocess.STDOUT, check=False).returncode
-        if code and -code not in (signal.SIGTERM, signal.SIGINT, signal.SIGKILL):
-            forget_kernels()
-            subprocess.run(command, stdout=file, stderr=subprocess.STDOUT, check=False)
+        for together in ([kinds[:1]], [share for share in shares if share]):
+            codes = _compile(together, file)
+            if any(-code in (signal.SIGTERM, signal.SIGINT, signal.SIGKILL) for code in codes):
+                return
+            if any(codes):
+                forget_kernels()
+                _compile([kinds], file)
+                return
+
+
+def _compile(shares: Iterable[Sequence[Scene]], log: TextIO) -> list[int]:
+    """Compile the kernels of each share in a process, all at the same time; returns their exit codes."""
+    program = "from math import inf; from granugas import Scene, warm_up; warm_up([Scene(**v) for v in {!r}])"
+    commands = [[sys.executable, "-c", program.format([scene.as_dict() for scene in share])] for share in shares]
+    started = [subprocess.Popen(command, stdout=log, stderr=subprocess.STDOUT) for command in commands]
+    return [process.wait() for process in started]
 
 
 def tell_progress(costs: Mapping[Job, float], since: float, every: float = 30.0) -> None:

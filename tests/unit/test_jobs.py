@@ -6,6 +6,7 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 import xarray as xr
@@ -185,9 +186,20 @@ def test_files_of_the_future_are_dated_so_that_nothing_old_is_believed(tmp_path:
 def test_kernels_that_cannot_be_used_are_compiled_again(tmp_path: Path, monkeypatch, code: int, expected: list[str]) -> None:
     calls = []
     monkeypatch.setattr("granugas.jobs.forget_kernels", lambda: calls.append("forget"))
-    monkeypatch.setattr(subprocess, "run", lambda *_, **__: calls.append("run") or subprocess.CompletedProcess([], code))
+    process = SimpleNamespace(wait=lambda: code)
+    monkeypatch.setattr(subprocess, "Popen", lambda *_, **__: calls.append("run") or process)
     warm_up(tmp_path / "log", [Scene()])
     assert calls == expected
+
+
+def test_kinds_of_scenes_are_dealt_to_processes_after_the_first(tmp_path: Path, monkeypatch) -> None:
+    compiled = []
+    process = SimpleNamespace(wait=lambda: 0)
+    monkeypatch.setattr(subprocess, "Popen", lambda command, **_: compiled.append(command[2]) or process)
+    kinds = [Scene(dimensions=2), Scene(dimensions=3), Scene(dimensions=1), Scene(contact_time=0.0)]
+    warm_up(tmp_path / "log", [*kinds, Scene(n_particles=7)], processes=2)
+    told = [[f"'dimensions': {k}" in text for k in (2, 3, 1)] for text in compiled]
+    assert told == [[True, False, False], [True, True, False], [False, False, True]]
 
 
 def test_the_process_that_compiles_ahead_reads_the_scenes_as_they_are(tmp_path: Path, monkeypatch) -> None:

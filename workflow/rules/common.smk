@@ -96,5 +96,5 @@ def begin(jobs):
     runs = {job: RUNS[job.outputs[0].stem] for job in jobs if job.rule.startswith("simulate")}
     started = [STATES[job.outputs[0].stem] for job in jobs if job.rule == "equilibrate"]
     if scenes := [run.scene for run in (*runs.values(), *started)]:
-        warm_up(f"{OUTPUT}/logs/warm_up.log", scenes)
+        warm_up(f"{OUTPUT}/logs/warm_up.log", scenes, workflow.cores)
     tell_progress({job: run.cost for job, run in runs.items()}, STARTED)
