@@ -16,7 +16,7 @@ import xarray as xr
 
 from granugas.storage.damage import DamagedFile, reading, seal
 from granugas.storage.files import encoding, labels, replacing
-from granugas.storage.pooling import pool, tell_stops
+from granugas.storage.pooling import pool, tell_stops, with_errors
 from granugas.storage.positions import read_positions, write_positions
 from granugas.storage.provenance import plain, provenance
 from granugas.storage.variables import VARIABLES, Variable, describe
@@ -33,6 +33,7 @@ __all__ = [
     "read_or_make",
     "read_positions",
     "tell_stops",
+    "with_errors",
     "write",
     "write_positions",
 ]
