@@ -17,6 +17,7 @@ from pathlib import Path
 from types import FrameType
 from typing import NamedTuple
 
+from granugas.cost import Cost, metered, processor_time, record
 from granugas.digest import forget_kernels
 from granugas.dynamics.events.effects import called_by
 from granugas.scene import Scene
@@ -82,12 +83,13 @@ class Terminal(logging.StreamHandler):
 
 
 @contextmanager
-def logged(path: str | Path) -> Iterator[None]:
+def logged(path: str | Path) -> Iterator[Cost]:
     """Let everything that a job says go to its log, and the job die with the workflow that started it.
 
     Standard output, standard error and logging are sent to the file, so an error ends the log with its traceback, the
     reason in the last line. The package's warnings go to the terminal as well (`Terminal`). A damaged file that it meets is
-    marked, for the next build to look at (`damaged`).
+    marked, for the next build to look at (`damaged`). What the job takes is written beside the log; it gets the record to say
+    its collisions.
     """
     if sys.platform == "linux":
         ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
@@ -103,7 +105,8 @@ def logged(path: str | Path) -> Iterator[None]:
     logging.basicConfig(format=form, datefmt="%H:%M:%S", handlers=[logging.StreamHandler(sys.stderr), terminal])
     logging.getLogger("granugas").setLevel(logging.INFO)
     try:
-        yield
+        with metered(Path(path)) as spent:
+            yield spent
     except DamagedFile as error:
         _mark_of(error.path).touch()
         raise
@@ -171,6 +174,7 @@ def warm_up(log: str | Path, scenes: Iterable[Scene]) -> None:
     Where it was killed the kernels are not to blame.
     """
     Path(log).parent.mkdir(parents=True, exist_ok=True)
+    begun, before = time.perf_counter(), processor_time()
     with open(log, "w") as file:
         kinds = {(scene.dimensions, *called_by(scene).values()): scene for scene in scenes}  # same kernels, same kind
         values = [scene.as_dict() for scene in kinds.values()]
@@ -180,6 +184,8 @@ def warm_up(log: str | Path, scenes: Iterable[Scene]) -> None:
         if code and -code not in (signal.SIGTERM, signal.SIGINT, signal.SIGKILL):
             forget_kernels()
             subprocess.run(command, stdout=file, stderr=subprocess.STDOUT, check=False)
+    cpu, wall = processor_time() - before, time.perf_counter() - begun
+    record(Path(log), Cost(cpu_seconds=cpu, wall_seconds=wall, compile_seconds=cpu))  # never done: of all builds together
 
 
 def tell_progress(costs: Mapping[Job, float], since: float, every: float = 30.0) -> None:
