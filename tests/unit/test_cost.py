@@ -3,6 +3,7 @@
 import json
 import os
 import re
+import runpy
 import subprocess
 import sys
 from pathlib import Path
@@ -13,6 +14,7 @@ import yaml
 from workflow.project import ROOT
 
 from granugas.cost import COLUMNS, MADE, Cost, Entry, entries, record, renew_table, summary, write_table
+from granugas.storage.dataset import read_by_name
 from granugas.studies import load
 
 
@@ -150,3 +152,15 @@ def test_shared_work_counts_for_the_first_study_that_asks() -> None:
     assert [study for (rule, _), study in asked.items() if rule == "equilibrate"] == ["a"]
     assert sorted(study for (rule, _), study in asked.items() if rule == "clusters") == ["a", "b"]
     assert (asked["pool", "a"], asked["pool", "b"]) == ("a", "b")
+
+
+def test_the_figure_has_a_bar_for_every_study_and_what_belongs_to_none(results: Path) -> None:
+    write_table(results / "cost.csv", entries(results), STUDY_OF)
+    data = read_by_name([results / "cost.csv"])
+    figure = runpy.run_path(str(ROOT / "workflow/figures/cost.py"))
+    minutes = figure["minutes_of"](data["cost"])
+    assert [*minutes.index] == ["figures, films, tables, claims", "scan", "kernels, compiled ahead"]  # from short to long
+    assert minutes.loc["scan"].sum() * 60 == pytest.approx(5.5) and minutes.loc["scan", "runs"] * 60 == pytest.approx(3)
+    (axes,) = figure["draw"](data).axes
+    assert sum(bar.get_width() for bar in axes.patches) * 60 == pytest.approx(13.75)
+    assert [text.get_text() for text in axes.get_yticklabels()] == [*minutes.index]
