@@ -7,6 +7,7 @@ import platform
 import statistics
 import subprocess
 import sys
+import tempfile
 import time
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -25,10 +26,14 @@ MELTING, TIMED, ROUNDS = 10, 150_000, 3
 REFERENCE = 365.0
 """ns per collision at N = 5740 of the machine on which all other costs of plan.py were measured."""
 
-JOB = "from granugas.jobs import logged; from granugas import Scene, simulate; " + (
-    "simulate(Scene(n_particles=16, restitution=1.0, contact_time=0.0), {'collisions_per_particle': 1.0}, progress=False)"
-)
-"""What every job does before its work begins: the program is loaded, and its kernels."""
+JOB = """
+import sys
+from granugas import Scene, simulate
+from granugas.storage.dataset import write
+scene = Scene(n_particles=16, restitution=1.0, contact_time=0.0)
+write(simulate(scene, {"collisions_per_particle": 1.0}, progress=False), sys.argv[1])
+"""
+"""What every job does beside its work: programs and kernels are loaded, a dataset is written."""
 
 
 @dataclass(frozen=True)
@@ -37,7 +42,7 @@ class Calibration:
 
     Attributes:
         sizes, ns_per_collision: of elastic disks, area fraction .25.
-        start_seconds: of a job before its work begins.
+        start_seconds: of a job beside its work.
         sample_seconds: of a sample without particles, and ...
         sample_seconds_per_particle: ... for each particle.
     """
@@ -72,12 +77,12 @@ def calibration() -> Calibration:
 
 
 def measure(sizes: tuple[int, ...] = SIZES, timed: int = TIMED) -> Calibration:
-    """Time elastic disks of these sizes, samples of the first and the last, and the start of a job (the best of two)."""
+    """Time elastic disks of these sizes, samples of the first and the last, and a job beside its work (the best of three)."""
     gases = [_melted(Scene(n_particles=n, area_fraction=0.25, restitution=1.0, contact_time=0.0)) for n in sizes]
     costs = [statistics.median(_collisions(engine, timed) for _ in range(ROUNDS)) for engine, _ in gases]
     few, many = (_sample(*gas) for gas in (gases[0], gases[-1]))
     each = max((many - few) / (sizes[-1] - sizes[0]), 0.0)
-    return Calibration(tuple(sizes), tuple(costs), min(_start(), _start()), max(few - each * sizes[0], 0.0), each)
+    return Calibration(tuple(sizes), tuple(costs), min(_start() for _ in range(3)), max(few - each * sizes[0], 0.0), each)
 
 
 def _melted(scene: Scene) -> tuple:
@@ -113,8 +118,10 @@ def _sample(engine, scene: Scene, number: int = 5) -> float:
 
 
 def _start() -> float:
+    """Seconds of a job with next to no work."""
     before = sum(os.times()[2:4])
-    subprocess.run([sys.executable, "-c", JOB], check=True, capture_output=True)
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run([sys.executable, "-c", JOB, f"{folder}/run.nc"], check=True, capture_output=True)
     return sum(os.times()[2:4]) - before
 
 

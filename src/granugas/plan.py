@@ -1,7 +1,7 @@
 """What a configuration will cost and how good it will be, before anything runs.
 
-Seconds are processor time. Those of collisions, samples and the start of a job are measured on this machine (calibration.py);
-the rest was measured once, on the machine of `REFERENCE`, and is scaled by the speed of collisions here.
+Seconds are processor time. Those of collisions, of samples and of a job beside its work are measured on this machine
+(calibration.py); the rest was measured once, on the machine of `REFERENCE`, and is scaled by the speed of collisions here.
 """
 
 import json
