@@ -15,8 +15,10 @@ include: "workflow/rules/common.smk"
 
 rule all:
     input:
-        [f"{OUTPUT}/figures/{name}.{kind}" for name in STUDIES.wanted for kind in ("png", "pdf")],
+        figures(with_costs=False),
+        figures(with_costs=True),
         tables(),
+        [f"{OUTPUT}/cost.csv"] if STUDIES.all_wanted else [],
         animations(),
         REMOVED,
 
@@ -32,7 +34,9 @@ onstart:
 
 onsuccess:
     print(f"Done: the datasets are in {OUTPUT}/studies, the figures in {OUTPUT}/figures.")
+    print(costs())
 
 
 onerror:
     print(failures(planned(workflow.dag), STARTED, finals=["figure", "table", "claims", "pool", "check"]))
+    print(costs())

@@ -1,4 +1,4 @@
-"""The package from the shell: `python -m granugas run ...`, `bench ...`, `compare ...`, `prune ...`."""
+"""The package from the shell: `python -m granugas run ...`, `bench ...`, `compare ...`, `prune ...`, `plan ...`."""
 
 import argparse
 import json
@@ -6,10 +6,13 @@ import logging
 import sys
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn
 
 from granugas.scene import LATTICES, Scene
 from granugas.storage.damage import DamagedFile
+
+if TYPE_CHECKING:
+    from granugas.studies import Studies
 
 BASE = "config/config.yaml"
 """The configuration that is always the first, as for a build."""
@@ -68,14 +71,9 @@ def _compare(options: argparse.Namespace) -> int:
 
 
 def _prune(options: argparse.Namespace) -> int:
-    import yaml
-
-    from granugas import studies
-    from granugas.configuration import merged
     from granugas.storage.prune import leftovers, listing, no_build, remove
 
-    schema = yaml.safe_load((options.workflow / "schemas/config.schema.yaml").read_text(encoding="utf-8"))
-    asked = studies.load(merged([BASE, *options.overlays]), schema, studies.figures_in(options.workflow / "figures"))
+    asked, _ = _asked(options)
     with no_build(asked.output):
         paths = leftovers(asked.output, asked.names())
         print(listing(paths))
@@ -86,6 +84,66 @@ def _prune(options: argparse.Namespace) -> int:
             remove(paths)
             print(f"{len(paths)} files removed.")
     return 0
+
+
+def _plan(options: argparse.Namespace) -> int:
+    from granugas.calibration import calibration
+    from granugas.configuration import unknown
+    from granugas.digest import physics
+    from granugas.plan import as_numbers, forecast, table
+
+    asked, config = _asked(options)
+    if options.study is not None and options.study not in asked.studies:
+        raise unknown("--study", options.study, options.study, asked.studies, kind="study")
+    if options.error is not None:
+        return _choose(options, asked, config)
+    found = forecast(asked, machine := calibration(), physics())
+    found = {name: one for name, one in found.items() if options.study in (None, name)}
+    print(json.dumps(as_numbers(found, machine)) if options.json else table(found, machine))
+    return 0
+
+
+def _choose(options: argparse.Namespace, asked: "Studies", config: dict[str, Any]) -> int:
+    import yaml
+
+    from granugas.calibration import calibration
+    from granugas.choice import cheapest, overlay
+
+    if options.study is None:
+        raise ValueError("--error: name the study it is asked of, --study")
+    error = _share(options.error)
+    choice = cheapest(asked.studies[options.study], error, options.of, calibration())
+    name = f"{options.study}_{options.of}_{100 * error:g}".replace(".", "_") + "_percent"
+    mine = overlay(config["studies"][options.study], choice, name)
+    if options.json:
+        print(json.dumps(asdict(choice)))
+    else:
+        print(f"{choice}")
+    if options.output:
+        Path(options.output).write_text(yaml.safe_dump(mine, sort_keys=False), encoding="utf-8")
+        files = " ".join(dict.fromkeys([BASE, *options.overlays, options.output]))
+        print(f"snakemake --cores 2 {asked.output}/studies/{name}.nc --configfile {files}", file=sys.stderr)
+    return 0
+
+
+def _share(text: str) -> float:
+    """Of "1%" or "0.01" .01."""
+    try:
+        return float(text[:-1]) / 100 if text.endswith("%") else float(text)
+    except ValueError:
+        raise ValueError(f"--error {text}: allowed is a number, or a percentage, as in 1%") from None
+
+
+def _asked(options: argparse.Namespace) -> "tuple[Studies, dict[str, Any]]":
+    """What the configuration asks for with the overlays on top, checked, and the configuration itself."""
+    import yaml
+
+    from granugas import studies
+    from granugas.configuration import merged
+
+    schema = yaml.safe_load((options.workflow / "schemas/config.schema.yaml").read_text(encoding="utf-8"))
+    config = merged([BASE, *options.overlays])
+    return studies.load(config, schema, studies.figures_in(options.workflow / "figures")), config
 
 
 def _scene(options: argparse.Namespace) -> Scene:
@@ -148,6 +206,16 @@ def _parser() -> argparse.ArgumentParser:
     prune.add_argument("--yes", action="store_true", help="do not ask")
     prune.add_argument("--workflow", type=Path, default=Path("workflow"), help="folder of the schema and the figures")
     prune.set_defaults(command=_prune)
+
+    plan = commands.add_parser("plan", help="what studies cost and how good they will be, before anything runs")
+    plan.add_argument("--configfile", nargs="+", default=[], dest="overlays", metavar="FILE", help=f"laid on top of {BASE}")
+    plan.add_argument("--study", help="of this study alone")
+    plan.add_argument("--json", action="store_true", help="numbers for programs")
+    plan.add_argument("--error", metavar="1%", help="the cheapest N, t_c and realizations with this relative error instead")
+    plan.add_argument("--of", default="kinetic_energy", help="kinetic_energy, pressure or mean_cluster_size, with --error")
+    plan.add_argument("--output", metavar="mine.yaml", help="write them as a configuration to lay on top, with --error")
+    plan.add_argument("--workflow", type=Path, default=Path("workflow"), help="folder of the schema and the figures")
+    plan.set_defaults(command=_plan)
     return parser
 
 

@@ -23,6 +23,13 @@ def start_states(run: Run) -> xr.Dataset:
     )
 
 
+def collisions_before(states: xr.Dataset) -> int:
+    """Collisions of pairs that it took to make start states, of one realization or of several."""
+    name = "equilibration_collisions_per_particle"
+    per_particle = states[name].values.sum() if name in states else states.attrs[name]
+    return round(float(per_particle) * states.sizes["particle"] / 2)
+
+
 def perform(
     run: Run, states: xr.Dataset, checkpoints: Mapping[int, Keeper] = NONE, max_seconds: float = math.inf
 ) -> xr.Dataset:

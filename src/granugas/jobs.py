@@ -17,6 +17,7 @@ from pathlib import Path
 from types import FrameType
 from typing import NamedTuple, TextIO
 
+from granugas.cost import Cost, metered, processor_time, record
 from granugas.digest import forget_kernels
 from granugas.dynamics.events.effects import called_by
 from granugas.scene import Scene
@@ -82,12 +83,13 @@ class Terminal(logging.StreamHandler):
 
 
 @contextmanager
-def logged(path: str | Path) -> Iterator[None]:
+def logged(path: str | Path) -> Iterator[Cost]:
     """Let everything that a job says go to its log, and the job die with the workflow that started it.
 
     Standard output, standard error and logging are sent to the file, so an error ends the log with its traceback, the
     reason in the last line. The package's warnings go to the terminal as well (`Terminal`). A damaged file that it meets is
-    marked, for the next build to look at (`damaged`).
+    marked, for the next build to look at (`damaged`). What the job takes is written beside the log; it gets the record to say
+    its collisions.
     """
     if sys.platform == "linux":
         ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
@@ -103,7 +105,8 @@ def logged(path: str | Path) -> Iterator[None]:
     logging.basicConfig(format=form, datefmt="%H:%M:%S", handlers=[logging.StreamHandler(sys.stderr), terminal])
     logging.getLogger("granugas").setLevel(logging.INFO)
     try:
-        yield
+        with metered(Path(path)) as spent:
+            yield spent
     except DamagedFile as error:
         _mark_of(error.path).touch()
         raise
@@ -171,17 +174,25 @@ def warm_up(log: str | Path, scenes: Iterable[Scene], processes: int = 1) -> Non
     where that fails the jobs fail too, and say so in their logs. Where it was killed the kernels are not to blame.
     """
     Path(log).parent.mkdir(parents=True, exist_ok=True)
+    begun, before = time.perf_counter(), processor_time()
     kinds = [*{(scene.dimensions, *called_by(scene).values()): scene for scene in scenes}.values()]  # same kernels, same kind
-    shares = [kinds[1 + k :: processes] for k in range(processes)]
     with open(log, "w") as file:
-        for together in ([kinds[:1]], [share for share in shares if share]):
-            codes = _compile(together, file)
-            if any(-code in (signal.SIGTERM, signal.SIGINT, signal.SIGKILL) for code in codes):
-                return
-            if any(codes):
-                forget_kernels()
-                _compile([kinds], file)
-                return
+        _compile_or_begin_anew(kinds, processes, file)
+    cpu, wall = processor_time() - before, time.perf_counter() - begun
+    record(Path(log), Cost(cpu_seconds=cpu, wall_seconds=wall, compile_seconds=cpu))  # never done: of all builds together
+
+
+def _compile_or_begin_anew(kinds: Sequence[Scene], processes: int, log: TextIO) -> None:
+    """Compile one scene of each kind; where that fails, forget the kernels that are there and compile all of them."""
+    shares = [kinds[1 + k :: processes] for k in range(processes)]
+    for together in ([kinds[:1]], [share for share in shares if share]):
+        codes = _compile(together, log)
+        if any(-code in (signal.SIGTERM, signal.SIGINT, signal.SIGKILL) for code in codes):
+            return
+        if any(codes):
+            forget_kernels()
+            _compile([kinds], log)
+            return
 
 
 def _compile(shares: Iterable[Sequence[Scene]], log: TextIO) -> list[int]:

@@ -113,6 +113,18 @@ class Studies:
         """For every start state one of the runs that begin with it."""
         return {run.state_address: run for run in self.runs().values()}
 
+    def first_to_ask(self) -> dict[tuple[str, str], str]:
+        """The study that is the first to ask for a job's work, by the names of its rule (see cost.py) and of its product."""
+        asked: dict[tuple[str, str], str] = {}
+        for name, study in self.studies.items():
+            asked.setdefault(("pool", name), name)
+            for run in study.runs:
+                asked.setdefault(("simulate", run.address), name)
+                asked.setdefault(("equilibrate", run.state_address), name)
+            for address in study.clusters():
+                asked.setdefault(("clusters", address), name)
+        return asked
+
     def names(self) -> dict[str, set[str]]:
         """For each folder of the results the names of the runs' files in it, without suffix."""
         runs = self.runs()
@@ -189,6 +201,11 @@ def figures_in(folder: Path) -> dict[str, tuple[str, ...]]:
 def experiments_in(folder: Path) -> dict[str, tuple[str, ...]]:
     """The same files, and the experiments that each needs: its line `EXPERIMENTS = (...)`, if it has one."""
     return {path.stem: _names_in(path, "EXPERIMENTS", ()) for path in _files_in(folder)}
+
+
+def tables_in(folder: Path) -> dict[str, tuple[str, ...]]:
+    """The same files, and the tables that each needs: its line `TABLES = (...)`, if it has one."""
+    return {path.stem: _names_in(path, "TABLES", ()) for path in _files_in(folder)}
 
 
 def runs_alone(experiment: Path) -> bool:

@@ -18,7 +18,7 @@ def test_the_preview_builds_every_figure_and_keeps_to_physics(project: Project) 
     figures = figures_in(ROOT / "workflow/figures")
     expected = {f"{name}.{kind}" for name in figures for kind in ("png", "pdf")}
     assert {path.name for path in preview.glob("figures/*")} >= expected
-    assert {path.stem for path in preview.glob("*.csv")} == {*figures_in(ROOT / "workflow/tables"), "claims"}
+    assert {path.stem for path in preview.glob("*.csv")} == {*figures_in(ROOT / "workflow/tables"), "claims", "cost"}
     claims = pd.read_csv(preview / "claims.csv")
     assert len(claims) >= 45 and set(claims["verdict"].str.split(" within").str[0]) <= {HOLDS, FAILS, SLIP, NOT_MEASURED}
     assert (claims["verdict"] != NOT_MEASURED).sum() >= 30
@@ -28,6 +28,11 @@ def test_the_preview_builds_every_figure_and_keeps_to_physics(project: Project) 
     assert {path.stem for path in preview.glob("studies/*.nc")} == set(studies)
     assert (preview / "checks.txt").read_text() == f"{len(studies)} studies, no finding\n"
     assert "the figures in results/preview/figures" in said
+    costs = pd.read_csv(preview / "cost.csv")
+    assert {"warm_up", "equilibrate", "simulate", "clusters", "pool", "experiments", "figures", "tables", "claims"} <= {
+        *costs["rule"]
+    }
+    assert "cost" not in {*project.jobs("--configfile", FULL, REDUCED, "--", "all", "check")}
 
 
 def test_the_preview_has_every_study_and_none_at_full_size() -> None:

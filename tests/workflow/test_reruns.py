@@ -1,5 +1,8 @@
 """What runs again after a change, and what does not: a study is built once, dry runs tell the rest."""
 
+import csv
+from collections import Counter
+
 import pytest
 import yaml
 from workflow.project import Project
@@ -47,6 +50,27 @@ def test_start_states_are_shared_by_all_restitutions(built: Project) -> None:
     assert len(list(built.folder.glob("results/states/*.nc"))) == 1
     assert len(list(built.folder.glob("results/runs/*.nc"))) == 2
     assert len(list(built.folder.glob("results/positions/*.nc"))) == 2
+
+
+def test_what_everything_cost_is_told_and_written_down(built: Project) -> None:
+    """After a build of a part, too; without what is gone; and nothing is out of date for it."""
+    table = built.folder / "results/cost.csv"
+    jobs = {"warm_up": 1, "equilibrate": 1, "simulate": 2, "clusters": 2, "pool": 1, "figures": 1, "check": 1}
+    assert Counter(row["rule"] for row in csv.DictReader(table.open())) == jobs
+    for row in csv.DictReader(table.open()):
+        assert float(row["cpu_seconds"]) > 0
+        assert row["study"] == ("small" if row["rule"] in ("equilibrate", "simulate", "clusters", "pool") else "")
+        if row["rule"] == "simulate":
+            data = read(built.folder / f"results/runs/{row['name']}.nc")
+            assert int(row["collisions"]) == data["events"]
+            assert float(row["cpu_seconds"]) > data["cpu_time"]
+    figure = built.folder / "results/figures/study_small.png"
+    figure.unlink()
+    said = built.build("--force", "--", "results/checks.txt")
+    assert "This build took " in said and "all that is there cost" in said
+    assert Counter(row["rule"] for row in csv.DictReader(table.open())) == Counter(jobs) - Counter(figures=1)
+    built.build("--", "all")
+    assert Counter(row["rule"] for row in csv.DictReader(table.open())) == jobs
 
 
 def test_nothing_is_left_to_do(built: Project) -> None:

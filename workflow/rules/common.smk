@@ -8,6 +8,7 @@ import yaml
 
 from granugas import digest, studies
 from granugas.configuration import ConfigError, refuse_duplicate_keys
+from granugas.cost import entries, renew_table, summary
 from granugas.dynamics.events.effects import modules_of
 from granugas.jobs import Job, claim, damaged, date_now, failures, pass_on_termination, tell_progress, warm_up
 
@@ -27,7 +28,8 @@ except ConfigError as error:
 OUTPUT = STUDIES.output
 STATES, RUNS, CLUSTERS, KEEPING = STUDIES.states(), STUDIES.runs(), STUDIES.clusters(), STUDIES.keeping()
 EXPERIMENTS = digest.SOURCES / "experiments"
-DRAWINGS = studies.experiments_in(HERE / "workflow/figures")
+DRAWINGS, DRAWN_TABLES = (names_in(HERE / "workflow/figures") for names_in in (studies.experiments_in, studies.tables_in))
+FIRST_TO_ASK = STUDIES.first_to_ask()
 TABLES, CLAIMS = (STUDIES.possible(studies.figures_in(HERE / f"workflow/{kind}")) for kind in ("tables", "claims"))
 MEASURED = {kind: studies.experiments_in(HERE / f"workflow/{kind}") for kind in ("tables", "claims")}
 STYLE = [digest.SOURCES / name for name in ("plotting.py", "snapshots.py", "granugas.mplstyle")]
@@ -71,9 +73,20 @@ def tables():
     return [f"{OUTPUT}/{name}.csv" for name in (*TABLES, *(["claims"] if CLAIMS else []))] if STUDIES.all_wanted else []
 
 
+def figures(with_costs):
+    """The files of the figures that are wanted: those that draw on what all others cost, or the others."""
+    names = [name for name in STUDIES.wanted if ("cost" in DRAWN_TABLES.get(name, ())) == with_costs]
+    return [f"{OUTPUT}/figures/{name}.{kind}" for name in names for kind in ("png", "pdf")]
+
+
 def animations():
     """The animations that the configuration asks for: with all figures, all animations."""
     return [f"{OUTPUT}/figures/{name}.mp4" for name in STUDIES.animations] if STUDIES.all_wanted else []
+
+
+def costs():
+    """Write what everything that is there cost, and say it in a line."""
+    return summary(entries(OUTPUT), STARTED, renew_table(OUTPUT, FIRST_TO_ASK))
 
 
 def planned(dag):

@@ -6,7 +6,7 @@ for name, needed in STUDIES.figures.items():
         name:
             f"figure_{name}"
         input:
-            data=datasets(needed, DRAWINGS.get(drawing, ())),
+            data=datasets(needed, DRAWINGS.get(drawing, ())) + [f"{OUTPUT}/{table}.csv" for table in DRAWN_TABLES.get(drawing, ())],
             drawing=f"{HERE}/workflow/figures/{drawing}.py",
             style=STYLE,
         output:
@@ -70,3 +70,21 @@ rule claims:
         formulas=digest.digest(["granugas.analysis.*", "granugas.claims"]),
     script:
         "../scripts/claims.py"
+
+
+# What every job took: the last of all, but for the figures that draw it. A build ends with an up-to-date one in any case.
+rule cost:
+    input:
+        datasets(STUDIES.studies, ()),
+        figures(with_costs=False),
+        tables(),
+        animations(),
+    output:
+        f"{OUTPUT}/cost.csv",
+    log:
+        f"{OUTPUT}/logs/cost.log",
+    params:
+        results=OUTPUT,
+        studies=FIRST_TO_ASK,
+    script:
+        "../scripts/cost.py"

@@ -2,8 +2,10 @@
 
 from granugas.jobs import logged
 
-with logged(snakemake.log[0]):
-    from granugas.execute import start_states
+with logged(snakemake.log[0]) as spent:
+    from granugas.execute import collisions_before, start_states
     from granugas.storage.dataset import write
 
-    write(start_states(snakemake.params.run), snakemake.output[0])
+    states = start_states(snakemake.params.run)
+    spent.collisions = collisions_before(states)
+    write(states, snakemake.output[0])

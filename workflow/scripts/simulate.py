@@ -2,7 +2,7 @@
 
 from granugas.jobs import logged
 
-with logged(snakemake.log[0]):
+with logged(snakemake.log[0]) as spent:
     from dataclasses import asdict
 
     from granugas.execute import perform, start_states
@@ -13,6 +13,7 @@ with logged(snakemake.log[0]):
     checkpoints = checkpoints_of(run, snakemake.params.checkpoints, snakemake.params.physics, keeping.checkpoint_seconds)
     states = read_or_make(snakemake.input.state, lambda: start_states(run))
     data = perform(run, states, checkpoints, keeping.max_seconds)
+    spent.collisions = int(data["events"].sum())
     if run.keep_positions:
         write_positions(data, output.positions)
     of_the_run = data.drop_vars([name for name in data if name.startswith("trajectory")])

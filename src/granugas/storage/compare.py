@@ -10,6 +10,7 @@ import xarray as xr
 from granugas.scene import SCENE_KEYS
 from granugas.storage.dataset import NOT_CONTENT, content_sha256
 from granugas.storage.provenance import plain
+from granugas.storage.variables import ERROR
 
 ROUNDING = 1e-12
 """Relative difference that is none."""
@@ -154,7 +155,8 @@ def _largest(name: str, sizes: xr.DataArray) -> Difference:
 
 
 def _counts(name: str) -> bool:
-    return not name.startswith((*NOT_CONTENT, *OWN))
+    """Whether a variable says anything of its own; errors follow from the values of the realizations."""
+    return not name.startswith((*NOT_CONTENT, *OWN)) and not name.endswith(ERROR)
 
 
 def _parameters(first: xr.Dataset, second: xr.Dataset) -> list[str]:

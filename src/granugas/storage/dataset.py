@@ -12,11 +12,13 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import xarray as xr
 
+from granugas.cost import input_output
 from granugas.storage.damage import DamagedFile, reading, seal
 from granugas.storage.files import encoding, labels, replacing
-from granugas.storage.pooling import pool, tell_stops
+from granugas.storage.pooling import pool, tell_stops, with_errors
 from granugas.storage.positions import read_positions, write_positions
 from granugas.storage.provenance import plain, provenance
 from granugas.storage.variables import VARIABLES, Variable, describe
@@ -33,6 +35,7 @@ __all__ = [
     "read_or_make",
     "read_positions",
     "tell_stops",
+    "with_errors",
     "write",
     "write_positions",
 ]
@@ -66,6 +69,7 @@ def content_sha256(dataset: xr.Dataset) -> str:
     return total.hexdigest()
 
 
+@input_output
 def write(dataset: xr.Dataset, path: str | Path, parameters: Mapping[str, Any] | None = None) -> None:
     """Write a netCDF file (CF-1.11, compressed) that is either whole or not there; equal data give equal files.
 
@@ -89,6 +93,7 @@ def write(dataset: xr.Dataset, path: str | Path, parameters: Mapping[str, Any] |
         seal(temporary)
 
 
+@input_output
 def read(path: str | Path) -> xr.Dataset:
     """The dataset of a file, in memory, the file closed.
 
@@ -120,11 +125,14 @@ def read_or_make(path: str | Path, make: Callable[[], xr.Dataset]) -> xr.Dataset
 def read_by_name(paths: Iterable[str | Path]) -> dict[str, xr.Dataset]:
     """The datasets of files by the files' names, those of studies and experiments: checked, then read where they are used.
 
+    Of a table (.csv) the columns, over `index`.
+
     Raises:
         FileNotFoundError: no such file.
         DamagedFile: as `read` says.
     """
-    return {Path(path).stem: read_positions(path) for path in paths}
+    files = {path.stem: path for path in map(Path, paths)}
+    return {name: _table(path) if path.suffix == ".csv" else read_positions(path) for name, path in files.items()}
 
 
 def load_study(path: str | Path) -> xr.Dataset:
@@ -138,6 +146,10 @@ def load_study(path: str | Path) -> xr.Dataset:
         there = ", ".join(sorted(other.stem for other in path.parent.glob("*.nc"))) or "none"
         raise FileNotFoundError(f"{path}: no such study; in {path.parent} there are: {there}")
     return read(path)
+
+
+def _table(path: Path) -> xr.Dataset:
+    return xr.Dataset.from_dataframe(pd.read_csv(path))
 
 
 def _content_of(named: Mapping[str, Any]) -> dict[str, Any]:

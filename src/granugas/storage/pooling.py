@@ -14,7 +14,7 @@ import xarray as xr
 from granugas.scene import SCENE_KEYS
 from granugas.storage.files import labels
 from granugas.storage.provenance import merge, plain
-from granugas.storage.variables import VARIABLES, describe
+from granugas.storage.variables import ERROR, VARIABLES, describe
 
 logger = logging.getLogger(__name__)
 
@@ -61,6 +61,28 @@ def pool(parts: Iterable[xr.Dataset], keys: Sequence[str]) -> xr.Dataset:
     names = dict.fromkeys(name for part in parts for name in part.data_vars if name not in grid)
     pooled = {name: _fill(name, parts, cells, grid, sizes, coordinates) for name in names}
     return describe(xr.Dataset(pooled, {**coordinates.coords, **axes}, attributes))
+
+
+def with_errors(pooled: xr.Dataset) -> xr.Dataset:
+    """The dataset, and beside each observable `<variable>_error`, the standard error of its mean over realizations.
+
+    Observables are the numbers that runs have at their samples: series, elastic shares, clusters; neither what belongs to
+    single particles nor what each run has once. The error has all dimensions of its variable but `realization` and is its
+    unit; it is s / sqrt(n) of the n runs that reached a sample, s their standard deviation (ddof = 1), and NaN for n < 2. The
+    variable names it in its attribute `ancillary_variables` (CF section 3.4). With one realization there are none.
+    """
+    if pooled.sizes.get("realization", 1) < 2:
+        return pooled
+    result = pooled.copy()
+    for name in filter(lambda name: _is_observable(pooled[name]), pooled.data_vars):
+        number = pooled[name].notnull().sum("realization")
+        result[f"{name}{ERROR}"] = pooled[name].std("realization", ddof=1) / np.sqrt(number.where(number > 1))
+        result[name].attrs["ancillary_variables"] = f"{name}{ERROR}"
+    return describe(result)
+
+
+def _is_observable(variable: xr.DataArray) -> bool:
+    return {"realization", "time"} <= {*variable.dims} and "particle" not in variable.dims and variable.dtype.kind in "fiu"
 
 
 def tell_stops(pooled: xr.Dataset) -> None:

@@ -11,6 +11,7 @@ import netCDF4
 import numpy as np
 import xarray as xr
 
+from granugas.cost import input_output
 from granugas.storage.damage import reading, seal
 from granugas.storage.files import chunk_sizes, encoding, labels, replacing
 from granugas.storage.variables import VARIABLES, describe
@@ -26,6 +27,7 @@ VELOCITY_BITS = 10
 """Of a velocity's mantissa, one part in a thousand: enough for a picture, and half the bytes."""
 
 
+@input_output
 def write_positions(dataset: xr.Dataset, path: str | Path) -> None:
     """Write `trajectory`, its motion, diameters where they differ, coordinates and the global attributes, whole or not at all.
 
@@ -67,6 +69,7 @@ def write_positions(dataset: xr.Dataset, path: str | Path) -> None:
         seal(temporary)
 
 
+@input_output
 def read_positions(path: str | Path) -> xr.Dataset:
     """The file's dataset, opened and not yet read: `trajectory` in m is read and unpacked where it is indexed.
 

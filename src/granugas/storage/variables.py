@@ -2,7 +2,8 @@
 
 A and B in `equation` are the papers: A = Luding & McNamara, Granular Matter 1 (1998) 113; B = Luding & Herrmann,
 Chaos 9 (1999) 673. The dimensions are, as far as a variable has them: the grid keys and `realization` (in pooled data),
-`time` or `snapshot`, `distance_factor`, `cluster_size`, `particle`, `axis`.
+`time` or `snapshot`, `distance_factor`, `cluster_size`, `particle`, `axis`. In pooled data `<variable>_error` stands beside a
+variable of the table (`variable_of`).
 """
 
 from typing import NamedTuple
@@ -31,6 +32,9 @@ class Variable(NamedTuple):
 
 
 _INTERVAL = "over the interval since the sample before"
+
+ERROR = "_error"
+"""End of the name of a variable's standard error of the mean over realizations."""
 
 VARIABLES = {
     # the grid of a study: what a scene is made of
@@ -285,6 +289,20 @@ VARIABLES = {
 }
 
 
+def variable_of(name: str) -> Variable:
+    """The row of a variable; of `<variable>_error` what follows from the row of the variable itself.
+
+    Raises:
+        KeyError: a variable that is not in `VARIABLES`.
+    """
+    if name in VARIABLES:
+        return VARIABLES[name]
+    if name.endswith(ERROR) and name.removesuffix(ERROR) in VARIABLES:
+        units, long_name, symbol, _ = VARIABLES[name.removesuffix(ERROR)]
+        return Variable(units, f"standard error of the mean over realizations: {long_name}", symbol and f"error of {symbol}")
+    raise KeyError(f"{name}: no such variable in the table of storage/variables.py")
+
+
 def describe(dataset: xr.Dataset) -> xr.Dataset:
     """The dataset with `units`, `long_name`, `symbol` and `equation` on every variable; other attributes stay.
 
@@ -295,9 +313,7 @@ def describe(dataset: xr.Dataset) -> xr.Dataset:
     """
     described = dataset.copy()
     for name in described.variables:
-        if name not in VARIABLES:
-            raise KeyError(f"{name}: no such variable in the table of storage/variables.py")
-        variable = VARIABLES[name]
+        variable = variable_of(str(name))
         if name == "time" and "sampling_time" in described:
             variable = Variable("1", "index of the sample")
         described[name].attrs.update(variable.attributes())

@@ -7,7 +7,7 @@ import xarray as xr
 import granugas as gg
 from granugas.__main__ import main
 from granugas.storage.compare import compare
-from granugas.storage.dataset import pool, write
+from granugas.storage.dataset import pool, with_errors, write
 
 RUNS = 40
 
@@ -53,6 +53,12 @@ def test_two_single_runs_by_relative_differences(runs):
     other["kinetic_energy"].values[7] = np.nan
     assert not compare(one, other).agree
     assert not compare(one, runs[1]).agree
+
+
+def test_errors_are_no_difference_of_their_own(runs):
+    first, second = (with_errors(pooled(runs[k : k + 4])) for k in (0, 4))
+    assert compare(first, second).agree
+    assert not [found.name for found in compare(first, second).differences if found.name.endswith("_error")]
 
 
 @pytest.mark.parametrize("size", [2, 4, 8])

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from granugas.storage.pooling import pool, tell_stops
+from granugas.storage.pooling import pool, tell_stops, with_errors
 
 BOTH = {"n_particles": 3, "restitution": 0.8}
 
@@ -142,6 +142,43 @@ def test_attributes_of_a_variable_stay_where_all_runs_agree(make_run):
         part["kinetic_energy"].attrs = {"window": "4 samples", "number": k}
     pooled = pool(parts, [])
     assert pooled["kinetic_energy"].attrs["window"] == "4 samples" and "number" not in pooled["kinetic_energy"].attrs
+
+
+def test_errors_over_realizations_stand_beside_observables(make_run):
+    parts = [make_run(k, restitution=r) for r in (0.8, 0.4) for k in (0, 1, 2)]
+    pooled = with_errors(pool(parts, ["restitution"]))
+    names = {str(name).removesuffix("_error") for name in pooled if str(name).endswith("_error")}
+    assert names == {"kinetic_energy", "elastic_collision_fraction"}  # not position, trajectory, seed, events, cpu_time ...
+    found, values = pooled["kinetic_energy_error"], pooled["kinetic_energy"].values
+    assert found.dims == ("restitution", "time")
+    np.testing.assert_allclose(found.values, np.std(values, axis=1, ddof=1) / np.sqrt(3), rtol=1e-13)
+    assert pooled["kinetic_energy"].attrs["ancillary_variables"] == "kinetic_energy_error"
+    assert found.attrs["units"] == "1" and found.attrs["long_name"].startswith("standard error of the mean over realizations: ")
+
+
+def test_an_error_needs_two_runs_that_reached_the_sample(make_run):
+    parts = [make_run(k, restitution=r) for r, runs in ((0.8, 3), (0.4, 1)) for k in range(runs)]
+    parts[1]["kinetic_energy"][2:] = np.nan
+    parts[2]["kinetic_energy"][3:] = np.nan
+    pooled = with_errors(pool(parts, ["restitution"]))
+    found, values = pooled["kinetic_energy_error"], pooled["kinetic_energy"].sel(restitution=0.8).values
+    assert np.isnan(found.sel(restitution=0.4)).all()
+    error = abs(values[0, 2] - values[2, 2]) / 2  # of two values
+    assert found.sel(restitution=0.8).values[2] == pytest.approx(error, rel=1e-13)
+    assert np.isnan(found.sel(restitution=0.8).values).tolist() == [False, False, False, True]
+
+
+def test_whole_numbers_have_errors_too_and_clusters_all_their_dimensions(make_run):
+    counts = [np.arange(8).reshape(4, 2) + shift for shift in (0, 3)]
+    found = [xr.Dataset({"cluster_count": (("time", "distance_factor"), c)}, {"distance_factor": [1.05, 1.4]}) for c in counts]
+    pooled = with_errors(pool([make_run(k).merge(part) for k, part in enumerate(found)], []))
+    assert pooled["cluster_count_error"].dims == ("time", "distance_factor")
+    np.testing.assert_allclose(pooled["cluster_count_error"], 1.5)
+
+
+def test_one_realization_has_no_error(make_run):
+    pooled = pool([make_run(0)], ["restitution"])
+    xr.testing.assert_identical(with_errors(pooled), pooled)
 
 
 def test_runs_that_stopped_are_counted_aloud(make_run, caplog):

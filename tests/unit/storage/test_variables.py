@@ -3,7 +3,7 @@ import pytest
 import xarray as xr
 
 from granugas.scene import SCENE_KEYS
-from granugas.storage.variables import VARIABLES, describe
+from granugas.storage.variables import VARIABLES, describe, variable_of
 
 UNITS = {
     "1": "tau kinetic_energy kinetic_energy_x kinetic_energy_y collisions_per_particle elastic_collisions_per_particle "
@@ -56,3 +56,15 @@ def test_time_is_an_index_where_a_run_ends_by_collisions():
 def test_describe_refuses_what_the_table_does_not_know():
     with pytest.raises(KeyError, match="temperature: no such variable"):
         describe(xr.Dataset({"temperature": 1.0}))
+
+
+def test_errors_follow_from_their_variables():
+    assert variable_of("collision_rate_error") == (
+        "s-1",
+        "standard error of the mean over realizations: collision rate of a particle over the interval since the sample before",
+        "error of C_r = 2 C / (N dt)",
+        "",
+    )
+    assert variable_of("events_error").symbol == "error of C" and variable_of("rotational_energy_error").units == "1"
+    with pytest.raises(KeyError, match="temperature_error: no such variable"):
+        variable_of("temperature_error")
