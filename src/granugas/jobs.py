@@ -18,7 +18,7 @@ from types import FrameType
 from typing import NamedTuple
 
 from granugas.digest import forget_kernels
-from granugas.dynamics.events.effects import called_by
+from granugas.dynamics.events.effects import modules_of
 from granugas.scene import Scene
 from granugas.storage.damage import DamagedFile, check, is_complete
 
@@ -172,7 +172,7 @@ def warm_up(log: str | Path, scenes: Iterable[Scene]) -> None:
     """
     Path(log).parent.mkdir(parents=True, exist_ok=True)
     with open(log, "w") as file:
-        kinds = {(scene.dimensions, *called_by(scene).values()): scene for scene in scenes}  # same kernels, same kind
+        kinds = {(scene.dimensions, modules_of(scene)): scene for scene in scenes}  # same kernels, same kind
         values = [scene.as_dict() for scene in kinds.values()]
         program = f"from math import inf; from granugas import Scene, warm_up; warm_up([Scene(**v) for v in {values!r}])"
         command = [sys.executable, "-c", program]

@@ -54,30 +54,31 @@ class Grid(NamedTuple):
 
 
 def grid_of(side: tuple[float, ...], walled: tuple[bool, ...], reach: float, n_particles: int) -> Grid:
-    """Cells for pairs up to a distance (m), no more than some per particle."""
-    most = max(1.0, (2.0 * n_particles) ** (1 / len(side)))
-    mean = math.prod(side) ** (1 / len(side))
-    count = tuple(max(1, int(min(length / reach, most * max(1.0, length / mean)))) for length in side)
-    around = [_paired(np.array(cell), count, walled) for cell in product(*(range(k) for k in count))]
-    cells = np.zeros(len(around) + 1, CELLS)
-    cells["first"][1:] = np.cumsum([len(others) for others in around])
-    beside = np.zeros(max(1, cells["first"][-1]), BESIDE)
-    beside["cell"][: cells["first"][-1]] = [other for others in around for other in others]
+    """Cells for pairs up to a distance (m), about one for each particle where they are that few."""
+    width = max(reach, (math.prod(side) / n_particles) ** (1 / len(side)))
+    count = tuple(max(1, int(length / width)) for length in side)
+    beside, first = _beside(count, walled)
+    cells = np.zeros(len(first), CELLS)
+    cells["first"] = first
     image = tuple(math.inf if wall else length for length, wall in zip(side, walled, strict=True))
     links = np.zeros(n_particles, LINKS)
-    return Grid(side, image, count, reach, len(around), n_particles, Table(cells), Table(beside), Table(links))
+    return Grid(side, image, count, reach, math.prod(count), n_particles, Table(cells), Table(beside), Table(links))
 
 
-def _paired(cell: np.ndarray, count: tuple[int, ...], walled: tuple[bool, ...]) -> list[int]:
-    """Numbers of the neighbours of a cell that are larger than its own, each once."""
-    shape, wall, found = np.array(count), np.array(walled), set()
-    for step in product((-1, 0, 1), repeat=len(count)):
-        other = cell + step
-        if np.any(wall & ((other < 0) | (other >= shape))):
-            continue
-        found.add(int(np.ravel_multi_index(tuple(other % shape), count)))
-    own = int(np.ravel_multi_index(tuple(cell), count))
-    return sorted(k for k in found if k > own)
+def _beside(count: tuple[int, ...], walled: tuple[bool, ...]) -> tuple[np.ndarray, np.ndarray]:
+    """The neighbours with larger numbers of each cell, each once, as BESIDE; where those of a cell begin, and where all end."""
+    cell = np.stack(np.unravel_index(np.arange(math.prod(count)), count), axis=1)
+    around = np.full((len(cell), 3 ** len(count)), NOBODY, np.int32)
+    for k, step in enumerate(product((-1, 0, 1), repeat=len(count))):
+        there = cell + step
+        outside = np.any(walled & ((there < 0) | (there >= count)), axis=1)
+        around[:, k] = np.where(outside, NOBODY, np.ravel_multi_index(tuple(np.mod(there, count).T), count))
+    around.sort(axis=1)
+    wanted = around > np.arange(len(cell))[:, np.newaxis]
+    wanted[:, 1:] &= around[:, 1:] != around[:, :-1]
+    beside = np.zeros(max(1, np.count_nonzero(wanted)), BESIDE)
+    beside["cell"][: np.count_nonzero(wanted)] = around[wanted]
+    return beside, np.concatenate([[0], np.cumsum(wanted.sum(axis=1))])
 
 
 @inline

@@ -19,7 +19,7 @@ from granugas.dynamics.events.loop import COLLISIONS, EVENTS, TIME
 from granugas.dynamics.events.memory import Record, Table, allocate
 from granugas.dynamics.neighbours import PAIRS, grid_of, list_pairs
 from granugas.dynamics.on_walls import wall_pressure
-from granugas.dynamics.soft_contact import spring
+from granugas.dynamics.soft_contact import spring, step_of, wall_contact_time
 from granugas.dynamics.soft_steps import ENOUGH, LIST, Contact, Gas, layouts, listed, run, start
 from granugas.dynamics.state import State
 from granugas.scene import Scene
@@ -104,8 +104,8 @@ class SoftSpheres:
         Returns why it stopped (events/loop.py); STEPS_PER_EVENT steps of a particle count as an event.
         """
         gas = self._gas
-        last = math.floor((until - self._begin) / gas.dt) if until < math.inf else ENDLESS
-        some = gas.sums.step + max(1, most_events * STEPS_PER_EVENT // gas.n)
+        last = math.floor(min((until - self._begin) / gas.dt, ENDLESS))
+        some = int(gas.sums.step) + max(1, most_events * STEPS_PER_EVENT // gas.n)
         enough = self.collisions + most_collisions
         while (why := run(gas, min(last, some), enough)) == LIST:
             listed(self._gas, self._list_pairs())
@@ -233,16 +233,6 @@ class SoftSpheres:
         wall = Contact(*spring(wall_contact_time(scene), scene.wall_restitution), 1.0)
         law = {"n": n, "d": d, "dt": dt, "skin": skin, "begin": self._begin, "pair": pair, "wall": wall}
         return Gas(**law, walled=scene.walled, any_wall=any(scene.walled), grid=grid, **tables, **records)
-
-
-def wall_contact_time(scene: Scene) -> float:
-    """How long a particle touches a wall (s): as long as another particle, unless the scene says so."""
-    return scene.wall_contact_time or scene.contact_time
-
-
-def step_of(scene: Scene) -> float:
-    """dt (s), of the shorter of the contacts with particles and with walls."""
-    return min(scene.contact_time, wall_contact_time(scene)) / scene.steps_per_contact
 
 
 def skin_of(scene: Scene, box: tuple[float, ...]) -> float:
