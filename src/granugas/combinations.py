@@ -163,7 +163,9 @@ def _soft_spheres(scene: "Scene") -> None:
     steps = scene.steps_per_contact
     if not scene.soft:
         if steps != default_of(scene, "steps_per_contact"):
-            allowed = f"allowed is {default_of(scene, 'steps_per_contact')} unless dynamics = soft_spheres: nothing else makes steps"
+            allowed = (
+                f"allowed is {default_of(scene, 'steps_per_contact')} unless dynamics = soft_spheres: nothing else makes steps"
+            )
             raise SceneError("steps_per_contact", steps, allowed)
         return
     if others := named_beside(scene, SOFT_KEYS):
@@ -174,7 +176,9 @@ def _soft_spheres(scene: "Scene") -> None:
     for kind, contact_time in contacts.items():
         r = getattr(scene, f"{kind}restitution")
         if not 0 < contact_time < longest:
-            allowed = f"allowed is > 0 and < {longest:.4g} s with dynamics = soft_spheres: in longer contacts particles pass through each other"
+            allowed = (
+                f"allowed is > 0 and < {longest:.4g} s with dynamics = soft_spheres: in longer ones particles pass through"
+            )
             raise SceneError(f"{kind}contact_time", contact_time, allowed)
         if r == 0:
             allowed = "allowed is a number > 0 with dynamics = soft_spheres: no dashpot takes all of a velocity"

@@ -112,7 +112,9 @@ def _refuse_images_of_one(scene: Scene, lattice: Lattice) -> None:
     """Soft spheres know one image of each neighbour."""
     sides = [side for side, wall in zip(lattice.box, scene.walled, strict=True) if not wall]
     if scene.soft and min(sides, default=math.inf) < NARROWEST_SOFT * scene.diameter:
-        allowed = f"allowed are so many that the periodic box is {NARROWEST_SOFT} diameters wide, with dynamics = {scene.dynamics}"
+        allowed = (
+            f"allowed are so many that the periodic box is {NARROWEST_SOFT} diameters wide, with dynamics = {scene.dynamics}"
+        )
         raise SceneError("n_particles", scene.n_particles, allowed)
 
 

@@ -41,7 +41,9 @@ def memory_of(run: Run) -> int:
     of_disks = n * (8 + frame * samples + (SNAPSHOT + 16 * axes + WINDOW) * len(run.snapshots))
     kept = of_disks + samples * (SAMPLE + OF_CONTACT_TIME * len(run.scene.contact_times))
     copies = 2 if realizations > 1 else 1
-    engine = (SOFT if run.scene.soft else ENGINE)[axes] + UNEQUAL * (run.scene.sizes != "equal") + HEATED * (run.scene.heating > 0)
+    engine = (
+        (SOFT if run.scene.soft else ENGINE)[axes] + UNEQUAL * (run.scene.sizes != "equal") + HEATED * (run.scene.heating > 0)
+    )
     engine += MODE * run.scene.internal_modes
     return n * (engine + START * (1 + axes) * realizations) + kept * realizations * copies
 

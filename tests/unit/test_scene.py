@@ -216,7 +216,10 @@ TOGETHER = [
     (SOFT | {"restitution": 0.0}, "restitution = 0.0: allowed is a number > 0 with dynamics = soft_spheres: no dashpot"),
     (SOFT | {"contact_time": 0.0}, "contact_time = 0.0: allowed is > 0 and < 0.001814 s with dynamics = soft_spheres"),
     (SOFT | {"contact_time": 2e-3}, "contact_time = 0.002: allowed is > 0 and < 0.001814 s with dynamics = soft_spheres"),
-    (SOFT | {"contact_time": (1e-5, 1e-4), "restitution": 1.0}, "contact_time = (1e-05, 0.0001): a list (not empty) is allowed"),
+    (
+        SOFT | {"contact_time": (1e-5, 1e-4), "restitution": 1.0},
+        "contact_time = (1e-05, 0.0001): a list (not empty) is allowed",
+    ),
     (SOFT | {"boundary": "wall", "wall_restitution": 0.0}, "wall_restitution = 0.0: allowed is a number > 0 with dynamics"),
     (SOFT | {"boundary": "wall", "wall_contact_time": 1.0}, "wall_contact_time = 1.0: allowed is > 0 and < 0.001814 s with"),
     (SOFT | {"restitution": 0.01, "steps_per_contact": 46}, "steps_per_contact = 46: allowed is at least 47 at restitution"),

@@ -10,7 +10,6 @@ at that time: where the TC model makes it elastic, although soft contacts dissip
 
 import math
 from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
 

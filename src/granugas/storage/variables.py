@@ -260,6 +260,7 @@ VARIABLES = {
     "depth": Variable("1", "dissipation of a contact by the critical one", "(1 - r)/(1 - r_c)", "A section 2.1"),
     "column_collisions": Variable("1", "collisions of the beads of a column with each other until they have parted", "C"),
     "energy_left": Variable("1", "kinetic energy of a column after its impact by the one before", "E/E(0)"),
+    "impact_interval": Variable("1", "time from impact to impact of the beads of a column by the contact time", "s/(v t_c)"),
     # every collision model from one start
     "model": Variable(None, "collision model"),
     "place": Variable(None, "where it is asked whether it collapses"),

