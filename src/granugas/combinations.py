@@ -25,6 +25,16 @@ LRV_KEYS = (
 )
 """Keys that scenes with an lrv_velocity may name."""
 
+SOFT_KEYS = (
+    *("n_particles", "area_fraction", "restitution", "contact_time", "diameter", "velocity_half_width", "dynamics"),
+    *("lattice", "dimensions", "boundary", "aspect_ratio", "wall_restitution", "wall_contact_time", "steps_per_contact"),
+)
+"""Keys that scenes of soft spheres may name."""
+
+MOST_DAMPED = 0.2
+"""2 eta dt, what the dashpot of a pair takes of its velocity in a step: in dense packings up to four times as much, and the
+steps are stable below 1."""
+
 
 def refuse_what_does_not_go_together(scene: "Scene") -> None:
     """See whether the keys of a scene, each of which may hold what it does, do so together.
@@ -32,7 +42,7 @@ def refuse_what_does_not_go_together(scene: "Scene") -> None:
     Raises:
         SceneError: they do not.
     """
-    for family in (_space, _contact_times, _driving, _walls, _materials, _models, _merging_beads):
+    for family in (_space, _contact_times, _driving, _walls, _materials, _models, _merging_beads, _soft_spheres):
         family(scene)
 
 
@@ -60,8 +70,8 @@ def _space(scene: "Scene") -> None:
 
 
 def _contact_times(scene: "Scene") -> None:
-    if isinstance(scene.contact_time, tuple) and (scene.dissipates or not scene.contact_time):
-        allowed = "a list (not empty) is allowed at restitution = 1 only, and for smooth surfaces"
+    if isinstance(scene.contact_time, tuple) and not (scene.one_trajectory and scene.contact_time):
+        allowed = "a list (not empty) is allowed at restitution = 1 only, and for smooth surfaces of hard particles"
         raise SceneError("contact_time", scene.contact_time, allowed)
 
 
@@ -147,3 +157,32 @@ def _merging_beads(scene: "Scene") -> None:
     for reason, holds in reasons.items():
         if holds:
             raise SceneError("lrv_velocity", scene.lrv_velocity, f"allowed is 0 {reason}")
+
+
+def _soft_spheres(scene: "Scene") -> None:
+    steps = scene.steps_per_contact
+    if not scene.soft:
+        if steps != default_of(scene, "steps_per_contact"):
+            allowed = (
+                f"allowed is {default_of(scene, 'steps_per_contact')} unless dynamics = soft_spheres: nothing else makes steps"
+            )
+            raise SceneError("steps_per_contact", steps, allowed)
+        return
+    if others := named_beside(scene, SOFT_KEYS):
+        allowed = f"allowed is events with {', '.join(others)}: soft spheres are equal, smooth and free between contacts"
+        raise SceneError("dynamics", scene.dynamics, allowed)
+    longest = math.pi * scene.diameter / (FASTEST * scene.velocity_half_width)
+    contacts = {"": scene.contact_time, "wall_": scene.wall_contact_time or scene.contact_time}
+    for kind, contact_time in contacts.items():
+        r = getattr(scene, f"{kind}restitution")
+        if not 0 < contact_time < longest:
+            allowed = (
+                f"allowed is > 0 and < {longest:.4g} s with dynamics = soft_spheres: in longer ones particles pass through"
+            )
+            raise SceneError(f"{kind}contact_time", contact_time, allowed)
+        if r == 0:
+            allowed = "allowed is a number > 0 with dynamics = soft_spheres: no dashpot takes all of a velocity"
+            raise SceneError(f"{kind}restitution", r, allowed)
+        if steps < (fewest := math.ceil(-2 * math.log(r) / MOST_DAMPED)):
+            allowed = f"allowed is at least {fewest} at {kind}restitution = {r:g}, where the dashpot is as strong"
+            raise SceneError("steps_per_contact", steps, allowed)

@@ -38,6 +38,7 @@ EVENTS = (
     "granugas.analysis.enskog",
     "granugas.analysis.mixtures",
     "granugas.dynamics.state",
+    "granugas.dynamics.on_walls",
     *(
         f"granugas.dynamics.events.{name}"
         for name in (
@@ -83,7 +84,7 @@ def digest(modules: Iterable[str]) -> str:
 
 
 @cache
-def physics(effects: tuple[str, ...] = ("granugas.dynamics.events.effects.*", "granugas.dynamics.lrv")) -> str:
+def physics(effects: tuple[str, ...] = ("granugas.dynamics.*",)) -> str:
     """The digest of the engine with these files of effects and other dynamics, of all of them unless named."""
     return digest((*EVENTS, *effects))
 

@@ -21,6 +21,9 @@ RELAXED = 10.0
 RESOLVED = 1e-30
 """K below which rounding decides: the common velocity that it leaves, 1e-16 of the first speeds, does not decay."""
 
+MOST_OVERLAP = 0.1
+"""Overlap of soft spheres (d) up to which they are nearly hard: at larger ones the gas is denser than that of hard ones."""
+
 FEWEST_CELLS = 3
 """In a box of fewer in one direction, a disk is a neighbour of the images of its neighbours."""
 
@@ -56,12 +59,17 @@ def doubts_before(scene: Scene, start: Mapping[str, Any], cells: Sequence[int], 
         keep_positions: whether there will be positions for a cluster analysis.
     """
     n, lines = scene.n_particles, doubts_of_start(scene.n_particles, start)
-    longest = max(scene.contact_times) if scene.dissipates else 0.0
+    longest = max(scene.contact_times) if not scene.one_trajectory else 0.0
     flight = 1 / float(enskog_rate(scene.area_fraction, scene.energy_per_mass, scene.diameter, scene.dimensions))
     if longest > flight and n > 1:
+        so = "particles are in several contacts at once" if scene.soft else "most collisions are elastic"
         lines.append(
             f"contact_time = {longest:g} s is longer than the mean time between collisions at t = 0, {flight:.4g} s "
-            "(A Eq. 19): most collisions are elastic from the start"
+            f"(A Eq. 19): {so} from the start"
+        )
+    if scene.soft and (overlap := scene.velocity_half_width * longest / math.pi / scene.diameter) > MOST_OVERLAP:
+        lines.append(
+            f"contact_time = {longest:g} s: soft spheres that meet at velocity_half_width overlap by {overlap:.2g} diameters"
         )
     if scene.friction < math.inf and scene.tangential_restitution == -1:
         lines.append(f"friction = {scene.friction:g} does nothing: the surfaces are smooth (tangential_restitution = -1)")

@@ -17,6 +17,9 @@ IN_DIMENSIONS: dict[int, ModuleType] = {1: line, 2: plane, 3: space}
 FEWEST_LARGEST = 2
 """Largest diameters that go into the box side by side, at least."""
 
+NARROWEST_SOFT = 2.2
+"""Diameters that go into a periodic box of soft spheres side by side, at least: a pair is near by one image only."""
+
 
 def check_lattice(scene: Scene) -> None:
     """See whether the particles fit.
@@ -47,6 +50,7 @@ def start_lattice(scene: Scene) -> Lattice:
     if scene.sizes != "equal" and min(lattice.box) < FEWEST_LARGEST * largest(scene) * scene.diameter:
         allowed = f"allowed are so many that the box is {FEWEST_LARGEST} of the largest diameters wide"
         raise SceneError("n_particles", scene.n_particles, allowed)
+    _refuse_images_of_one(scene, lattice)
     if grows or lattice.holds(scene):
         _refuse_what_walls_squeeze(scene, lattice)
         return lattice
@@ -102,6 +106,16 @@ def _spread(scene: Scene, lattice: Lattice) -> dict[int, tuple[float, float]]:
         for axis, side in enumerate(lattice.box)
         if scene.walled[axis]
     }
+
+
+def _refuse_images_of_one(scene: Scene, lattice: Lattice) -> None:
+    """Soft spheres know one image of each neighbour."""
+    sides = [side for side, wall in zip(lattice.box, scene.walled, strict=True) if not wall]
+    if scene.soft and min(sides, default=math.inf) < NARROWEST_SOFT * scene.diameter:
+        allowed = (
+            f"allowed are so many that the periodic box is {NARROWEST_SOFT} diameters wide, with dynamics = {scene.dynamics}"
+        )
+        raise SceneError("n_particles", scene.n_particles, allowed)
 
 
 def _refuse_what_walls_squeeze(scene: Scene, lattice: Lattice) -> None:

@@ -19,7 +19,7 @@ from typing import NamedTuple, TextIO
 
 from granugas.cost import Cost, metered, processor_time, record
 from granugas.digest import forget_kernels
-from granugas.dynamics.events.effects import called_by
+from granugas.dynamics.events.effects import modules_of
 from granugas.scene import Scene
 from granugas.storage.damage import DamagedFile, check, is_complete
 
@@ -175,7 +175,7 @@ def warm_up(log: str | Path, scenes: Iterable[Scene], processes: int = 1) -> Non
     """
     Path(log).parent.mkdir(parents=True, exist_ok=True)
     begun, before = time.perf_counter(), processor_time()
-    kinds = [*{(scene.dimensions, *called_by(scene).values()): scene for scene in scenes}.values()]  # same kernels, same kind
+    kinds = [*{(scene.dimensions, modules_of(scene)): scene for scene in scenes}.values()]  # same kernels, same kind
     with open(log, "w") as file:
         _compile_or_begin_anew(kinds, processes, file)
     cpu, wall = processor_time() - before, time.perf_counter() - begun

@@ -61,7 +61,7 @@ class Record:
         self.snapshots = np.array(sorted(snapshots), dtype=float)
         count, n, dimensions = len(points.points) + 1, scene.n_particles, scene.dimensions
         self._axes = AXES[:dimensions]
-        on_average = (ELASTIC_ON_AVERAGE,) if not scene.dissipates and self._contact_times.any() else ()
+        on_average = (ELASTIC_ON_AVERAGE,) if scene.one_trajectory and self._contact_times.any() else ()
         self._time = np.full(count, np.nan)
         along = (f"kinetic_energy_{axis}" for axis in self._axes)
         self._pairs = {f"collisional_stress_{a}{b}": (i, j) for i, a in enumerate(self._axes) for j, b in enumerate(self._axes)}

@@ -14,6 +14,9 @@ ENGINE = {1: 220, 2: 260, 3: 370}
 START = 16
 """Bytes a particle of a start state, and as many for each axis."""
 
+SOFT = {1: 250, 2: 380, 3: 600}
+"""The same of soft spheres, and what makes their cells (measured; the list of pairs grows with t_c)."""
+
 UNEQUAL, HEATED = 48, 48
 """Bytes a particle more where sizes differ (in the tables, two states and the record), and while kicks are drawn."""
 
@@ -38,7 +41,9 @@ def memory_of(run: Run) -> int:
     of_disks = n * (8 + frame * samples + (SNAPSHOT + 16 * axes + WINDOW) * len(run.snapshots))
     kept = of_disks + samples * (SAMPLE + OF_CONTACT_TIME * len(run.scene.contact_times))
     copies = 2 if realizations > 1 else 1
-    engine = ENGINE[axes] + UNEQUAL * (run.scene.sizes != "equal") + HEATED * (run.scene.heating > 0)
+    engine = (
+        (SOFT if run.scene.soft else ENGINE)[axes] + UNEQUAL * (run.scene.sizes != "equal") + HEATED * (run.scene.heating > 0)
+    )
     engine += MODE * run.scene.internal_modes
     return n * (engine + START * (1 + axes) * realizations) + kept * realizations * copies
 

@@ -14,7 +14,11 @@ GRID_KEYS = tuple(SCENE_KEYS[: SCENE_KEYS.index("lattice") + 1])
 
 START_SECONDS = 2.0
 SECONDS_PER_COLLISION = 1e-6
-"""What a job costs before its first collision, and each collision: to plan with."""
+SECONDS_PER_STEP = 1e-8
+"""What a job costs before its first collision, each collision, and each step of a soft sphere: to plan with."""
+
+MOST_IN_COOLING = 100.0
+"""Exponent of a cooling gas (B Eq. 3) up to which the time is expected that its collisions take; numbers would overflow."""
 
 
 @dataclass(frozen=True)
@@ -87,14 +91,26 @@ class Run:
     def cost(self) -> float:
         """Expected s on one core, to plan with: from the collisions in an elastic gas, in homogeneous cooling, in clusters."""
         from granugas.analysis.enskog import enskog_rate
+        from granugas.dynamics.soft_contact import step_of
 
         scene = self.scene
         rate = float(enskog_rate(scene.area_fraction, scene.energy_per_mass, scene.diameter, scene.dimensions))
+        if scene.soft:
+            steps = _time_in_cooling(self.until, rate, scene) / step_of(scene)
+            return START_SECONDS + SECONDS_PER_STEP * scene.n_particles * steps * len(self.realizations)
         tau = rate * self.until.get("time", math.inf)
         collisions = tau if self.scene.restitution == 1 or self.scene.heating > 0 else _collisions_in_cooling(tau, self.scene)
         collisions = min(collisions, self.until.get("collisions_per_particle", math.inf))
         collisions *= len(self.realizations)
         return START_SECONDS + SECONDS_PER_COLLISION * self.scene.n_particles * collisions / 2
+
+
+def _time_in_cooling(until: Mapping[str, float], rate: float, scene: Scene) -> float:
+    """Until limits are reached (s) by a gas that begins with a collision rate (1/s): B Eq. 4 for its collisions."""
+    loss = (1 - scene.restitution**2) / (2 * scene.dimensions)  # of sqrt(K)
+    collisions = min(until.get("collisions_per_particle", math.inf), MOST_IN_COOLING / loss if loss else math.inf)
+    time = (math.expm1(loss * collisions) / loss if loss else collisions) / rate
+    return min(time, until.get("time", math.inf))
 
 
 def _collisions_in_cooling(tau: float, scene: Scene) -> float:

@@ -32,7 +32,7 @@ class Scene:
         contact_time: t_c of A Eq. 4 in s; a tuple of them at restitution 1, where one trajectory serves all.
         diameter: d in m.
         velocity_half_width: w in m/s; components start uniform in +-w, so that E(0) = D N m w^2 / 6 in D dimensions.
-        dynamics: the method that moves the particles.
+        dynamics: the method that moves the particles: hard ones from event to event, or soft ones in steps of time.
         lattice: start lattice; "auto" holds any N.
         dimensions: D of space: beads on a ring, disks in a plane, spheres.
         boundary: of the box: "periodic", "wall", or one of them for each axis ("periodic wall": walls along y alone).
@@ -63,6 +63,7 @@ class Scene:
         internal_modes: number of oscillators in each particle that take up what `restitution` leaves, and give it back.
         mode_damping: gamma in 1/s: their energy falls as exp(-gamma t).
         lrv_velocity: in m/s; contacts of beads that are slower merge into clusters (LRV model, A section 3.i); 0: none do.
+        steps_per_contact: of soft spheres: steps in which t_c passes.
 
     Raises:
         SceneError: a value outside of what is allowed.
@@ -74,7 +75,7 @@ class Scene:
     contact_time: float | tuple[float, ...] = contact_time_key(1.0e-5)
     diameter: float = number(1.0e-3, above=0.0, within=EXTREME, unit="m", start=True)
     velocity_half_width: float = number(0.5, above=0.0, within=EXTREME, unit="m/s", start=True)
-    dynamics: str = choice("events")
+    dynamics: str = choice("events", "soft_spheres")
     lattice: str = choice(*LATTICES, start=True)
     dimensions: int = choice(2, 1, 3, start=True)
     boundary: str = boundary_key("periodic")
@@ -104,6 +105,7 @@ class Scene:
     internal_modes: int = integer(0, 0, MOST_MODES)
     mode_damping: float = number(0.0, at_least=0.0, unit="1/s")
     lrv_velocity: float = number(0.0, at_least=0.0, at_most=EXTREME, unit="m/s")
+    steps_per_contact: int = integer(50, 10, 1000)
 
     def __post_init__(self) -> None:
         if isinstance(self.contact_time, (tuple, list)):
@@ -155,6 +157,16 @@ class Scene:
     def dissipates(self) -> bool:
         """Whether collisions are other than elastic ones of smooth particles: only then a contact duration changes them."""
         return self.restitution < 1 or self.rough
+
+    @property
+    def soft(self) -> bool:
+        """Whether contacts last, as those of soft spheres do."""
+        return self.dynamics == "soft_spheres"
+
+    @property
+    def one_trajectory(self) -> bool:
+        """Whether one trajectory serves all contact times: that of elastic collisions that last no time."""
+        return not self.dissipates and not self.soft
 
     @property
     def contact_times(self) -> tuple[float, ...]:

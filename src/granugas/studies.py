@@ -274,7 +274,7 @@ def _refuse_too_large(where: str, run: Run, has: int) -> None:
 
 
 def _refuse_too_many(studies: Mapping[str, Mapping[str, Any]], schema: Mapping[str, Any]) -> None:
-    """Count the runs before any is made; at r = 1 one run serves all contact times."""
+    """Count the runs before any is made; at r = 1 one run of hard particles serves all contact times."""
     numbers = {name: _number_of_runs(with_defaults(block, schema)) for name, block in studies.items()}
     total, largest = sum(numbers.values()), max(numbers, key=numbers.__getitem__)
     if total > MOST_RUNS:
@@ -285,7 +285,8 @@ def _refuse_too_many(studies: Mapping[str, Mapping[str, Any]], schema: Mapping[s
 def _number_of_runs(block: Mapping[str, Any]) -> int:
     axes = {key: value if isinstance(value, list) else [value] for key, value in block["grid"].items()}
     times, restitutions = len(axes.pop("contact_time", [0.0])), axes.pop("restitution", [0.0])
-    pairs = sum(1 if r == 1 else times for r in restitutions)
+    methods = axes.pop("dynamics", [DEFAULTS["dynamics"]])
+    pairs = sum(1 if r == 1 and method == DEFAULTS["dynamics"] else times for r in restitutions for method in methods)
     return block["realizations"] * pairs * math.prod(map(len, axes.values()))
 
 
@@ -304,7 +305,7 @@ def _scenes(where: str, grid: Mapping[str, Any], settings: Mapping[str, Any]) ->
     for point in itertools.product(*axes.values()):
         values = DEFAULTS | dict(zip(axes, point, strict=True))
         scene = _said_here(places, Scene, **values)
-        if len(times) > 1 and not scene.dissipates:
+        if len(times) > 1 and scene.one_trajectory:
             if values["contact_time"] != times[0]:
                 continue
             scene = replace(scene, contact_time=tuple(sorted(times)))

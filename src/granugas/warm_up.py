@@ -19,4 +19,4 @@ def warm_up(scenes: Iterable[Scene] = (Scene(),)) -> None:
         lattice = start_lattice(small)
         start = on_lattice(small, lattice, random_stream(small, 0, 0))
         for engine in (engine_of(small, start), engine_at_start(small, start, lattice)):
-            engine.advance(1.0, 32)
+            engine.advance(1.0, 32, 2000)

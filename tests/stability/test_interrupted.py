@@ -28,6 +28,10 @@ SCENES = {
         Scene(60, 0.3, restitution=0.6, contact_time=0.0, dimensions=1, lrv_velocity=0.02),
         {"until": 1.0, "samples": {"count": 30}, "snapshots": (0.05, 1.0), "keep_motion": True},
     ),
+    "soft spheres": (
+        Scene(60, 0.4, restitution=0.7, contact_time=1e-3, dynamics="soft_spheres", boundary="wall", steps_per_contact=10),
+        {"until": 0.05, "samples": {"count": 20}, "snapshots": (0.0, 0.01, 0.05), "keep_motion": True},
+    ),
     "few disks": (Scene(5, 0.1, restitution=0.9, contact_time=1e-6), {"until": 2.0, "samples": {"count": 100}}),
 }
 

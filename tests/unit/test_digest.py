@@ -121,9 +121,10 @@ def test_an_unknown_module_is_refused(name):
 
 
 LRV = (*sources.EVENTS, "granugas.dynamics.lrv")
+SOFT = (*sources.EVENTS, *modules_of(Scene(dynamics="soft_spheres")))
 
 
-@pytest.mark.parametrize("modules", [(*sources.EVENTS, "granugas.dynamics.events.effects.*"), LRV, sources.ANALYSIS])
+@pytest.mark.parametrize("modules", [(*sources.EVENTS, "granugas.dynamics.events.effects.*"), LRV, SOFT, sources.ANALYSIS])
 def test_what_decides_numbers_is_covered(modules):
     """Whatever a covered module imports of the package is covered too, or decides no number (scenes only check theirs)."""
     covered = {name for module in modules for name, _ in sources._source_files(module)}
@@ -141,6 +142,9 @@ def test_an_effect_counts_where_a_scene_calls_for_it():
     assert set(modules_of(dissipative, elastic)) == {*called, *modules_of(elastic)}
     beads = Scene(dimensions=1, contact_time=0.0, lrv_velocity=0.1)
     assert modules_of(beads) == ("granugas.dynamics.lrv",) and "granugas.dynamics.lrv" not in modules_of(dissipative, elastic)
+    soft = modules_of(Scene(dynamics="soft_spheres"))
+    assert soft == tuple(f"granugas.dynamics.{name}" for name in ("neighbours", "soft_contact", "soft_steps", "softspheres"))
+    assert not {*soft} & {*modules_of(dissipative, elastic, beads)}
     assert len({sources.physics(called), sources.physics(modules_of(elastic)), sources.physics()}) == 3
 
 

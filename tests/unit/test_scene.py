@@ -74,7 +74,10 @@ WRONG = [
     ("friction", -0.1, "a number >= 0, or .inf"),
     ("friction", math.nan, "a number >= 0, or .inf"),
     ("friction", -math.inf, "a number >= 0, or .inf"),
-    ("dynamics", "dsmc", "events"),
+    ("dynamics", "dsmc", "events, soft_spheres"),
+    ("steps_per_contact", 9, "an integer from 10 to 1000"),
+    ("steps_per_contact", 50.0, "an integer from 10 to 1000"),
+    ("steps_per_contact", 100, "50 unless dynamics = soft_spheres"),
     ("lattice", "hexagonal", "auto, triangular, square, cubic, fcc"),
     ("lattice", "cubic", "in 2 dimensions allowed are auto, triangular, square"),
     ("dimensions", 4, "2, 1, 3"),
@@ -198,6 +201,7 @@ def test_a_wrong_list_of_contact_times(times):
         Scene(restitution=1.0, contact_time=times)
 
 
+SOFT = {"dynamics": "soft_spheres"}
 BEADS = {"dimensions": 1, "contact_time": 0.0, "lrv_velocity": 0.1}
 
 TOGETHER = [
@@ -209,6 +213,25 @@ TOGETHER = [
     (BEADS | {"material": "viscoelastic", "viscosity": 0.1}, "lrv_velocity = 0.1: allowed is 0 with material, viscosity: the"),
     (BEADS | {"critical_distance": 1e-4}, "lrv_velocity = 0.1: allowed is 0 with critical_distance: the model"),
     (BEADS | {"internal_modes": 1}, "lrv_velocity = 0.1: allowed is 0 with internal_modes: the model"),
+    (SOFT | {"restitution": 0.0}, "restitution = 0.0: allowed is a number > 0 with dynamics = soft_spheres: no dashpot"),
+    (SOFT | {"contact_time": 0.0}, "contact_time = 0.0: allowed is > 0 and < 0.001814 s with dynamics = soft_spheres"),
+    (SOFT | {"contact_time": 2e-3}, "contact_time = 0.002: allowed is > 0 and < 0.001814 s with dynamics = soft_spheres"),
+    (
+        SOFT | {"contact_time": (1e-5, 1e-4), "restitution": 1.0},
+        "contact_time = (1e-05, 0.0001): a list (not empty) is allowed",
+    ),
+    (SOFT | {"boundary": "wall", "wall_restitution": 0.0}, "wall_restitution = 0.0: allowed is a number > 0 with dynamics"),
+    (SOFT | {"boundary": "wall", "wall_contact_time": 1.0}, "wall_contact_time = 1.0: allowed is > 0 and < 0.001814 s with"),
+    (SOFT | {"restitution": 0.01, "steps_per_contact": 46}, "steps_per_contact = 46: allowed is at least 47 at restitution"),
+    (SOFT | {"boundary": "wall", "wall_restitution": 1e-3}, "steps_per_contact = 50: allowed is at least 70 at wall_rest"),
+    (SOFT | {"boundary": "wall", "gravity": 9.81}, "dynamics = 'soft_spheres': allowed is events with gravity: soft spheres"),
+    (SOFT | {"sizes": "uniform", "friction": 0.5}, "dynamics = 'soft_spheres': allowed is events with friction, sizes: soft"),
+    (SOFT | {"heating": 1.0}, "dynamics = 'soft_spheres': allowed is events with heating: soft spheres are equal"),
+    (SOFT | {"critical_distance": 1e-5}, "dynamics = 'soft_spheres': allowed is events with critical_distance: soft"),
+    (
+        SOFT | {"dimensions": 1, "lrv_velocity": 0.1, "contact_time": 0.0},
+        "dynamics = 'soft_spheres': allowed is events with lrv_velocity: soft spheres",
+    ),
     ({"contact_time_exponent": 1.0}, "contact_velocity = 0.0: allowed is a number > 0"),
     ({"contact_time_exponent": 1.0, "contact_velocity": 0.1, "contact_time": 0.0}, "contact_time_exponent = 1.0: allowed is 0"),
     ({"material": "viscoelastic"}, "viscosity = 0.0: allowed is a number > 0"),

@@ -177,6 +177,27 @@ def test_larger_and_longer_runs_are_expected_to_cost_more() -> None:
     assert load_study(until={"time": 50.0}).runs[0].cost > load_study().runs[0].cost
 
 
+def test_soft_spheres_share_start_states_and_have_a_run_for_each_contact_time() -> None:
+    grid = {"n_particles": 42, "contact_time": [1e-5, 1e-4], "restitution": 1.0, "dynamics": ["events", "soft_spheres"]}
+    study = load_study(grid=grid, until={"time": 0.01}, realizations=1)
+    assert [run.scene.contact_time for run in study.runs] == [(1e-5, 1e-4), 1e-5, 1e-4]
+    assert len({run.state_address for run in study.runs}) == 1 and len({run.address for run in study.runs}) == 3
+    hard, *soft = (run.cost for run in study.runs)
+    assert hard < soft[1] < soft[0]
+    by_collisions, longer = (
+        load_study(grid={"n_particles": 42, "dynamics": "soft_spheres"}, until={"collisions_per_particle": c}).runs[0].cost
+        for c in (10, 20)
+    )
+    assert longer - 2.0 > 3 * (by_collisions - 2.0)  # of which it takes 2 s to start
+
+
+def test_soft_spheres_need_a_box_in_which_a_neighbour_has_one_image() -> None:
+    grid = {"n_particles": 4, "area_fraction": 0.7, "dynamics": "soft_spheres"}
+    with pytest.raises(ConfigError, match=r"n_particles.*4.*that the periodic box is 2\.2 diameters wide, with"):
+        load_study(grid=grid)
+    load_study(grid=grid | {"dynamics": "events"})
+
+
 def test_short_contact_times_are_expected_to_cost_more() -> None:
     rare, often, endless = (load_study(grid={"n_particles": 5740, "contact_time": t}).runs[0].cost for t in (1e-3, 1e-12, 0.0))
     assert rare < often / 5 and often <= endless < math.inf

@@ -51,6 +51,10 @@ def engine_of(scene: "Scene", state: "State", **instead: Any) -> Dynamics:
         from granugas.dynamics.lrv import Beads
 
         return Beads(scene, state, **instead)
+    if scene.soft:
+        from granugas.dynamics.softspheres import SoftSpheres
+
+        return SoftSpheres(scene, state, **instead)
     from granugas.dynamics.events.engine import Engine
 
     return Engine(scene, state, **instead)

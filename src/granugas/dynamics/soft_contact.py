@@ -10,6 +10,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from granugas.scene import Scene
+
 Numbers = NDArray[np.float64]
 
 BISECTIONS = 50
@@ -43,6 +45,16 @@ def spring(contact_time: float, restitution: float) -> Spring:
         raise ValueError(f"t_c = {contact_time} s, r = {restitution}: allowed are t_c > 0 and 0 < r <= 1")
     omega, eta = math.pi / contact_time, -math.log(restitution) / contact_time
     return Spring(omega**2 + eta**2, 2 * eta)
+
+
+def wall_contact_time(scene: Scene) -> float:
+    """How long a soft particle touches a wall (s): as long as another one, unless its scene says so."""
+    return scene.wall_contact_time or scene.contact_time
+
+
+def step_of(scene: Scene) -> float:
+    """dt of soft spheres (s): of the shorter of the contacts with particles and with walls."""
+    return min(scene.contact_time, wall_contact_time(scene)) / scene.steps_per_contact
 
 
 def integrate(spring: Spring, h: float, v: float, until: float, step: float, g: float = 0.0) -> Path:

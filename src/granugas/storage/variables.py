@@ -75,6 +75,7 @@ VARIABLES = {
     "internal_modes": Variable("1", "number of internal modes of a particle", "n", "A section 3"),
     "mode_damping": Variable("s-1", "rate at which the energy of internal modes falls", "gamma", "A section 3"),
     "lrv_velocity": Variable("m s-1", "relative velocity below which contacts of beads merge into clusters", "", "A section 3"),
+    "steps_per_contact": Variable("1", "steps of the integration in a contact of two soft spheres", "t_c / dt"),
     # its start state
     "box_x": Variable("m", "side of the box along x", "L_x"),
     "box_y": Variable("m", "side of the box along y", "L_y"),
@@ -160,6 +161,7 @@ VARIABLES = {
     "potential_energy": Variable(
         "1", "potential energy by the initial kinetic energy, 0 for particles on the floor", "E_p/E(0)", "A section 4.2.1"
     ),
+    "elastic_energy": Variable("1", "elastic energy of the overlaps of soft spheres by the initial kinetic energy", "V/E(0)"),
     "floor_force": Variable("1", f"momentum that the floor takes up in unit time, by the weight, {_INTERVAL}", "f / (N m g)"),
     "floor_energy": Variable("1", "energy that the floor has given to the particles since t = 0, by E(0)"),
     "dissipated_energy": Variable("1", "energy that has been dissipated since t = 0, by E(0)"),
@@ -262,6 +264,7 @@ VARIABLES = {
     "depth": Variable("1", "dissipation of a contact by the critical one", "(1 - r)/(1 - r_c)", "A section 2.1"),
     "column_collisions": Variable("1", "collisions of the beads of a column with each other until they have parted", "C"),
     "energy_left": Variable("1", "kinetic energy of a column after its impact by the one before", "E/E(0)"),
+    "impact_interval": Variable("1", "time from impact to impact of the beads of a column by the contact time", "s/(v t_c)"),
     # every collision model from one start
     "model": Variable(None, "collision model"),
     "place": Variable(None, "where it is asked whether it collapses"),

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from gases import lattice_gas
 
-from granugas.dynamics.events.engine import Engine
+from granugas.dynamics import engine_of
 from granugas.dynamics.events.memory import COMPILED, Table, allocate
 from granugas.scene import Scene
 
@@ -65,14 +65,30 @@ SCENES = {
         internal_modes=2,
         mode_damping=100.0,
     ),
+    "soft": Scene(64, 0.5, restitution=0.8, contact_time=1e-3, steps_per_contact=10, dynamics="soft_spheres"),
+    "soft spheres between walls": Scene(
+        64,
+        0.4,
+        restitution=0.8,
+        contact_time=1e-3,
+        steps_per_contact=10,
+        dynamics="soft_spheres",
+        dimensions=3,
+        boundary="periodic wall wall",
+        wall_restitution=0.7,
+    ),
+    "soft beads": Scene(
+        64, 0.5, restitution=0.8, contact_time=1e-3, steps_per_contact=10, dynamics="soft_spheres", dimensions=1
+    ),
 }
 COLLISIONS = 400
 
 
 def after_some_collisions(scene: Scene) -> dict[str, np.ndarray]:
-    """The whole state of the engine; it looks ahead as it does for large systems, which changes nothing."""
-    engine = Engine(scene, lattice_gas(scene))
-    engine.arrays["calendar"]["look_ahead"] = 1
+    """The whole state of the dynamics; the engine looks ahead as it does for large systems, which changes nothing."""
+    engine = engine_of(scene, lattice_gas(scene))
+    if "calendar" in engine.arrays:
+        engine.arrays["calendar"]["look_ahead"] = 1
     engine.advance(math.inf, COLLISIONS)
     return engine.arrays
 

@@ -5,6 +5,9 @@ Nothing is imported here: which files a scene calls for is known without compili
 
 from granugas.scene import Scene
 
+SOFT = ("neighbours", "soft_contact", "soft_steps", "softspheres")
+"""Files of the dynamics of soft spheres."""
+
 
 def called_by(scene: Scene) -> dict[str, str | tuple[str, ...]]:
     """The effect files that a scene calls for, by the place that each takes (cast.effects_of).
@@ -13,8 +16,8 @@ def called_by(scene: Scene) -> dict[str, str | tuple[str, ...]]:
     restitution where the rule leaves it to it. Several files in one place: each rule asks the next one where it does not
     decide, the last one the material; what follows a collision happens in this order.
     """
-    if scene.lrv_velocity > 0:
-        return {}  # beads of another dynamics
+    if scene.lrv_velocity > 0 or scene.soft:
+        return {}  # of another dynamics
     dissipates, lasting = scene.dissipates, any(scene.contact_times)
     called = {"material": scene.material, "rule": "hard", "watch": "nobody"}
     if dissipates:
@@ -53,6 +56,7 @@ def modules_of(*scenes: Scene) -> tuple[str, ...]:
     """Full names of the files that scenes call for: effects, and dynamics other than the engine's."""
     names = {f"{__name__}.{name}" for scene in scenes for held in called_by(scene).values() for name in several(held)}
     names |= {"granugas.dynamics.lrv" for scene in scenes if scene.lrv_velocity > 0}
+    names |= {f"granugas.dynamics.{name}" for scene in scenes if scene.soft for name in SOFT}
     return tuple(sorted(names))
 
 

@@ -31,6 +31,7 @@ from granugas.dynamics.events.memory import Record, Table
 from granugas.dynamics.events.predict import leave_partner
 from granugas.dynamics.events.sizes import mass, radius
 from granugas.dynamics.events.vectors import plus, scaled, with_component, zeros_like
+from granugas.dynamics.on_walls import wall_pressure
 from granugas.dynamics.state import State
 from granugas.scene import Scene
 
@@ -59,16 +60,7 @@ class Walls(NamedTuple):
         hits = {"wall_collisions_per_particle": float(self.sums.rows["before"][0] / scene.n_particles)}
         if scene.gravity > 0:
             return hits
-        pressure = math.nan
-        if tally is not None and interval > 0:
-            box, walled = np.array(state.box), np.array(scene.walled)
-            force = np.sum(np.abs(tally.more["wall_momentum"])) / interval
-            area = 2 * np.sum(math.prod(state.box) / box[walled])
-            squares = np.sum(state.velocity**2, axis=1) * state.more.get("mass", 1.0)
-            gone, gone_time = tally.loss + tally.stored, tally.loss_time + tally.stored_time
-            energy = np.sum(squares) / 2 + gone - gone_time / interval  # mean over the interval
-            pressure = force / area * math.prod(state.box) / (2 * energy / scene.dimensions)
-        return hits | {"wall_pressure": float(pressure)}
+        return hits | {"wall_pressure": wall_pressure(scene, state, tally, interval)}
 
 
 def effect_of(scene: Scene, state: State) -> Walls:
