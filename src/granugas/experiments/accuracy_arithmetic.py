@@ -130,7 +130,7 @@ def _elastic(start: State, plan: Plan) -> xr.Dataset:
         partners (collision, partner) of the followed collisions; smallest_gap and rms_gap of these at their contacts (d);
         PRESSURE and cpu_per_collision (ns) of the later ones; energy_balance at the end.
     """
-    engine, scene = _engine(ELASTIC, start), ELASTIC
+    engine = _engine(ELASTIC, start)
     partners, gaps = np.empty((plan.followed, 2), np.int64), np.empty(plan.followed)
     for k in range(plan.followed):
         engine.advance(math.inf, 1)
