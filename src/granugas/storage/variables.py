@@ -289,6 +289,19 @@ VARIABLES = {
     "cpu_while_clustering": Variable("ns", "processor time of a collision since the time before"),
     "run_collisions": Variable("1", "collisions of a particle in a whole run", "C/N"),
     "cpu_added": Variable("ns", "processor time of a collision beyond that of elastic disks in the same repetition"),
+    # what accuracy costs: a knob, its settings, and the error that each leaves
+    "case": Variable(None, "gas, or way of measuring, in which the knob is turned"),
+    "setting": Variable(None, "setting of the knob that the attribute `knob` names, in its unit"),
+    "observable": Variable(None, "what is compared with the truth"),
+    "measured_error": Variable("1", "standard error of the number that was measured"),
+    "truth": Variable("1", "value that the number should have, as well as it is known"),
+    "truth_error": Variable("1", "standard error of the truth"),
+    "relative_error": Variable("1", "difference from the truth by the truth"),
+    "relative_error_error": Variable("1", "standard error of the relative error, that of the truth included"),
+    "cpu_seconds": Variable("s", "processor time of a run with this setting, median, compilation apart"),
+    "first_difference": Variable("1", "collision of pairs at which the order first differs from that of strict arithmetic"),
+    "smallest_gap": Variable("1", "least distance of two disks at their collision less the diameter, by the diameter"),
+    "rms_gap": Variable("1", "distance of two disks at their collision less the diameter, root mean square, by the diameter"),
 }
 
 

@@ -28,7 +28,7 @@ def test_every_variable_is_named_and_texts_have_no_units():
     assert all(variable.long_name for variable in VARIABLES.values())
     texts = {name for name, variable in VARIABLES.items() if variable.units is None}
     of_scene = {"dynamics", "lattice", "boundary", "material", "sizes", "floor"}
-    of_experiments = {"change", "effect", "scene_keys", "check", "wall", "model", "place"}
+    of_experiments = {"change", "effect", "scene_keys", "check", "wall", "model", "place", "case", "setting", "observable"}
     assert texts == {*of_scene, *of_experiments, "lattice_kind", "branch", "axis", "stop_reason", "warnings"}
 
 

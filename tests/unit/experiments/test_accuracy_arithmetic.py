@@ -1,0 +1,62 @@
+"""Other flags change the last digits and the order of collisions, and stay out of the cache of kernels."""
+
+import os
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from granugas.dynamics.events.engine import Engine
+from granugas.equilibrate import equilibrate, state_of
+from granugas.experiments import accuracy_arithmetic as experiment
+from granugas.storage.variables import describe
+
+
+def cached() -> dict[Path, int]:
+    return {path: path.stat().st_mtime_ns for path in Path(os.environ["NUMBA_CACHE_DIR"]).rglob("*.nb*")}
+
+
+@pytest.fixture(scope="module")
+def measured():
+    strict = experiment._engine(experiment.ELASTIC, state_of(equilibrate(experiment.ELASTIC)))
+    strict.advance(1.0, 1)
+    before = cached()
+    data = describe(experiment.measure(experiment.SMALL))
+    return data.assign_attrs(cache_as_before=before and cached() == before)
+
+
+def test_the_cache_is_as_it_was(measured):
+    assert measured.attrs["cache_as_before"]
+
+
+def test_fused_operations_change_the_order_after_a_while(measured):
+    """Rounding differs at once, what it decides only after it has grown for some collisions of a particle."""
+    first = measured["first_difference"]
+    assert first.sel(setting="strict").isnull().all()
+    assert (first.sel(setting="fused") > 2000).all() and (first.sel(setting="fused") <= experiment.SMALL.followed).all()
+    assert (measured["rms_gap"].sel(setting="fused") != measured["rms_gap"].sel(setting="strict")).any()
+
+
+def test_rounding_is_all_that_changes(measured):
+    assert (abs(measured["smallest_gap"]) < 1e-12).all() and (measured["rms_gap"] > 1e-17).all()
+    assert (abs(measured["energy_balance"]) < 1e-12).all()
+    cooled = measured.sel(observable=[name for name in measured["observable"].values if name.startswith("K")]).squeeze("case")
+    assert (cooled["relative_error"] < 1e-6).all() and (cooled["measured"] < 0.5).all()
+
+
+def test_the_first_setting_is_the_truth(measured):
+    strict = measured.sel(setting="strict").squeeze("case")
+    assert (strict["relative_error"] == 0).all() and (strict["measured"] == strict["truth"]).all()
+    assert (measured["cpu_per_collision"] > 10).all() and (measured["cpu_seconds"] > 0).all()
+
+
+def test_the_gap_of_disks_in_contact_is_zero_and_grows_as_they_leave():
+    """Across cells and the ends of the box."""
+    scene = experiment.COOLING
+    engine = Engine(scene, state_of(equilibrate(scene)))
+    for _ in range(200):
+        engine.advance(1.0, 1)
+        i, j = np.flatnonzero(engine.arrays["clocks"]["last"] == engine.arrays["calendar"]["now"])
+        assert abs(experiment.gap(engine, i, j)) < 1e-13
+    engine.arrays["disks"]["x"][j, 0] += 1e-3 * np.sign(engine.arrays["disks"]["x"][j, 0])
+    assert abs(experiment.gap(engine, i, j)) > 1e-6

@@ -1,0 +1,24 @@
+"""What accuracy costs in time: relative error against processor time for every knob, on the same axes."""
+
+import xarray as xr
+from matplotlib.figure import Figure
+
+from granugas.plotting import styled
+from granugas.plotting_accuracy import accuracy_figure, arithmetic, contact_time, equilibration, sampling
+
+STUDIES = ()
+EXPERIMENTS = ("accuracy_contact_time", "accuracy_sampling", "accuracy_equilibration", "accuracy_arithmetic")
+SECONDS, ERROR = (5e-4, 2e2), (1e-4, 20.0)
+"""The axes of all panels."""
+
+
+@styled
+def draw(data: dict[str, xr.Dataset]) -> Figure:
+    """A panel a knob."""
+    panels = {
+        "contact duration $t_c$ (s)": contact_time(data["accuracy_contact_time"]),
+        "sampling": sampling(data["accuracy_sampling"]),
+        "collisions of a particle before the start": equilibration(data["accuracy_equilibration"]),
+        "arithmetic": arithmetic(data["accuracy_arithmetic"]),
+    }
+    return accuracy_figure(panels, SECONDS, ERROR)
