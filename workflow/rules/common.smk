@@ -10,6 +10,7 @@ from granugas import digest, studies
 from granugas.configuration import ConfigError, refuse_duplicate_keys
 from granugas.dynamics.events.effects import modules_of
 from granugas.jobs import Job, claim, damaged, date_now, failures, pass_on_termination, tell_progress, warm_up
+from granugas.report import entry_of
 
 HERE = Path(workflow.basedir)
 STARTED = time.time()
@@ -64,6 +65,12 @@ def physics(run):
 def datasets(names, experiments):
     """The files of studies and experiments."""
     return [f"{OUTPUT}/studies/{name}.nc" for name in names] + [f"{OUTPUT}/experiments/{name}.nc" for name in experiments]
+
+
+def placed(file, name):
+    """Section, part and labels in the report of a figure or table with this name, as its file says."""
+    section, part, about = entry_of(HERE / file)
+    return {"category": section, "subcategory": part, "labels": {"name": name, "shows": about}}
 
 
 def tables():
