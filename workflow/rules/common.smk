@@ -12,7 +12,7 @@ from granugas.dynamics.events.effects import modules_of
 from granugas.jobs import Job, claim, damaged, date_now, failures, pass_on_termination, tell_progress, warm_up
 from granugas.report import entry_of
 
-HERE = Path(workflow.basedir)
+HERE = Path(workflow.current_basedir.get_path_or_uri(secret_free=True)).parents[1]  # also where another workflow uses this one
 STARTED = time.time()
 
 try:
@@ -100,8 +100,10 @@ def begin(jobs):
     except OSError as error:
         sys.exit(f"output = {OUTPUT!r}: nothing can be written there ({error.strerror}); choose another folder.")
     pass_on_termination()
-    runs = {job: RUNS[job.outputs[0].stem] for job in jobs if job.rule.startswith("simulate")}
-    started = [STATES[job.outputs[0].stem] for job in jobs if job.rule == "equilibrate"]
+    made = {Path(f"{OUTPUT}/runs/{address}.nc"): run for address, run in RUNS.items()}
+    began = {Path(f"{OUTPUT}/states/{address}.nc"): run for address, run in STATES.items()}
+    runs = {job: made[job.outputs[0]] for job in jobs if job.outputs and job.outputs[0] in made}
+    started = [began[job.outputs[0]] for job in jobs if job.outputs and job.outputs[0] in began]
     if scenes := [run.scene for run in (*runs.values(), *started)]:
         warm_up(f"{OUTPUT}/logs/warm_up.log", scenes)
     tell_progress({job: run.cost for job, run in runs.items()}, STARTED)
