@@ -28,7 +28,7 @@ preview: .venv/.installed
 
 report: .venv/.installed
 	$(SNAKEMAKE) -- pages
-	$(SNAKEMAKE) --report results/report.html -- pages
+	DOCUTILSCONFIG=workflow/report/docutils.conf $(SNAKEMAKE) --report results/report.html -- pages
 
 test: .venv/.installed
 	$(PYTEST)

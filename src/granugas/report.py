@@ -5,6 +5,7 @@ import json
 from collections.abc import Iterable, Mapping
 from html import escape
 from pathlib import Path
+from textwrap import shorten
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from granugas.configuration import MISSING, ConfigError
@@ -16,6 +17,9 @@ SECTIONS = ("Papers", "Accuracy", "Hard cases", "Effects", "Cost", "Studies", "C
 
 PAPERS = {"tc1998": "A: Luding and McNamara 1998", "cluster1999": "B: Luding and Herrmann 1999"}
 """By the first word of the names of the figures and tables that belong to a paper."""
+
+WIDTH = 64
+"""Letters of what is said about an entry: the menu leaves the rest of the window to the figure."""
 
 PAGE = """<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"><title>{title}</title>
@@ -64,7 +68,7 @@ class Entry(NamedTuple):
     Attributes:
         section: one of `SECTIONS`.
         part: of the section, or None.
-        about: what it shows, one line.
+        about: what it shows, a few words.
     """
 
     section: str
@@ -76,18 +80,20 @@ def entry_of(path: str | Path) -> Entry:
     """Where the figure or table of a file stands, and what it shows: read from the file, which is not run.
 
     A name that begins with a paper's stands under `Papers`; any other file has a line `SECTION = "..."`. What it shows is
-    the first line of the file.
+    the beginning of the file's first line.
 
     Raises:
         ConfigError: no section, or one that there is not.
     """
     path = Path(path)
     tree = ast.parse(path.read_text(encoding="utf-8"), str(path))
-    paper = PAPERS.get(path.stem.split("_")[0])
+    begin, _, _ = path.stem.partition("_")
+    paper = PAPERS.get(begin)
     section = "Papers" if paper else _written(tree, "SECTION")
     if section not in SECTIONS:
         raise ConfigError(f"{path.name}: SECTION", section, f"allowed are {', '.join(SECTIONS)}")
-    return Entry(section, paper, (ast.get_docstring(tree) or path.stem).splitlines()[0])
+    about = (ast.get_docstring(tree) or path.stem).splitlines()[0].removeprefix(begin).strip(" ,:.")
+    return Entry(section, paper, shorten(about, WIDTH, placeholder=" ..."))
 
 
 def table_page(table: "pd.DataFrame", title: str) -> str:
