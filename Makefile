@@ -5,11 +5,12 @@ VENV := .venv/bin
 SNAKEMAKE := $(VENV)/snakemake --cores $(CORES)
 PYTEST := SLURM_CONF=/dev/null MPLBACKEND=Agg $(VENV)/python -m pytest -n $(CORES) --dist loadfile
 
-.PHONY: help figures preview test test-full bench gallery prune lint lock clean
+.PHONY: help figures preview report test test-full bench gallery prune lint lock clean
 
 help:
 	@echo 'make figures    all figures at full size, into results/'
 	@echo 'make preview    the same figures, small and in minutes, into results/preview/'
+	@echo 'make report     all of it on one page to read and pass on, results/report.html'
 	@echo 'make test       all tests but the long ones'
 	@echo 'make test-full  all tests'
 	@echo 'make bench      speed of the engine, into results/bench.csv'
@@ -24,6 +25,10 @@ figures: .venv/.installed
 
 preview: .venv/.installed
 	$(SNAKEMAKE) --configfile config/config.yaml config/reduced.yaml -- all check
+
+report: .venv/.installed
+	$(SNAKEMAKE) -- pages
+	DOCUTILSCONFIG=workflow/report/docutils.conf $(SNAKEMAKE) --report results/report.html -- pages
 
 test: .venv/.installed
 	$(PYTEST)

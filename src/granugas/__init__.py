@@ -16,6 +16,7 @@ _HOMES = {
     "SceneError": "granugas.scene",
     "equilibrate": "granugas.equilibrate",
     "simulate": "granugas.simulate",
+    "export_snapshots": "granugas.storage.export",
     "find_clusters": "granugas.analysis.clusters",
     "load_study": "granugas.storage.dataset",
     "warm_up": "granugas.warm_up",

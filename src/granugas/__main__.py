@@ -70,6 +70,15 @@ def _compare(options: argparse.Namespace) -> int:
     return 0 if found.agree else 1
 
 
+def _export(options: argparse.Namespace) -> int:
+    from granugas.storage.dataset import read
+    from granugas.storage.export import export_snapshots
+
+    frames = export_snapshots(read(options.run), options.output, options.snapshot)
+    print(f"{options.output}: {frames} frame{'s' if frames != 1 else ''}")
+    return 0
+
+
 def _prune(options: argparse.Namespace) -> int:
     from granugas.storage.prune import leftovers, listing, no_build, remove
 
@@ -200,6 +209,12 @@ def _parser() -> argparse.ArgumentParser:
     compare.add_argument("first", metavar="A.nc")
     compare.add_argument("second", metavar="B.nc")
     compare.set_defaults(command=_compare)
+
+    export = commands.add_parser("export", help="snapshots of a run as extended XYZ, which OVITO and ASE read")
+    export.add_argument("run", metavar="RUN.nc")
+    export.add_argument("output", metavar="OUT.xyz")
+    export.add_argument("--snapshot", type=float, help="time, s; all of them unless it is given")
+    export.set_defaults(command=_export)
 
     prune = commands.add_parser("prune", help="remove files of runs that no study names any more, after listing them")
     prune.add_argument("overlays", nargs="*", metavar="mine.yaml", help=f"configurations on top of {BASE}")

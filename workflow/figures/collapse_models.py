@@ -7,6 +7,7 @@ from matplotlib.figure import Figure
 
 from granugas.plotting import MARKERS, PAGE, mark_panels, styled
 
+SECTION = "Hard cases"
 STUDIES = ()
 EXPERIMENTS = ("models",)
 

@@ -7,6 +7,7 @@ from matplotlib.figure import Figure
 from granugas.analysis.theory import column_restitution, cushion_restitution
 from granugas.plotting import MARKERS, PAGE, THEORY, mark_panels, power_of_ten, shades, styled
 
+SECTION = "Hard cases"
 STUDIES = ()
 EXPERIMENTS = ("column",)
 WALLS = {"as beads": "wall with the $r$ of the beads", "elastic": "elastic wall"}

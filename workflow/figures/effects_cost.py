@@ -6,6 +6,7 @@ from matplotlib.figure import Figure
 
 from granugas.plotting import PAGE, styled
 
+SECTION = "Effects"
 STUDIES = ()
 EXPERIMENTS = ("effects_cost",)
 MARKERS = ("o", "D")

@@ -11,10 +11,10 @@ from granugas.analysis.statistics import fit_power_law
 from granugas.analysis.theory import homogeneous_cooling
 from granugas.plotting import MARKERS, PAGE, THEORY, band, exponent, grid_points, mark_panels, shades, styled
 
+SECTION = "Effects"
 STUDIES = ("growth_3d",)
 FACTORS = (1.05, 1.1, 1.2)
-TIMES = (0.01, 1.0, 4.0, 16.0, 200.0)
-"""Of the size distributions, in s: before growth, its beginning, two in it, and the end."""
+TIMES = (0.01, 1.0, 4.0, 16.0, 200.0)  # of the size distributions, in s: before growth, its beginning, two in it, the end
 
 
 def growth(axes: Axes, sizes: xr.DataArray, **look) -> None:

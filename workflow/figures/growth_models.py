@@ -9,9 +9,9 @@ from granugas.analysis.growth import growth_window, local_exponent
 from granugas.analysis.statistics import fit_power_law
 from granugas.plotting import PAGE, band, grid_points, mark_panels, styled
 
+SECTION = "Effects"
 STUDIES = ("growth_smooth", "growth_rough", "growth_viscoelastic")
-FACTOR = 1.1
-"""S_c."""
+FACTOR = 1.1  # S_c
 
 
 def named(scene: dict) -> str:

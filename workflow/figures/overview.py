@@ -8,6 +8,7 @@ from matplotlib.lines import Line2D
 
 from granugas.plotting import PAGE, band, grid_points, mark_panels, point_names, shades, styled, times
 
+SECTION = "Studies"
 STUDIES = ()
 
 PANELS = {

@@ -7,10 +7,10 @@ from matplotlib.figure import Figure
 from granugas.analysis.divergence import collision_times, lyapunov_exponent, relative_spread
 from granugas.plotting import PAGE, mark_panels, styled
 
+SECTION = "Accuracy"
 STUDIES = ()
 EXPERIMENTS = ("rounding",)
-WINDOW = (1e-12, 1e-3)
-"""Of the distance by d, in which the Lyapunov exponent is fitted."""
+WINDOW = (1e-12, 1e-3)  # of the distance by d, in which the Lyapunov exponent is fitted
 LINES = {"last bit": "-", "order": ":"}
 
 

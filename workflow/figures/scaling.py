@@ -8,6 +8,7 @@ from matplotlib.ticker import LogLocator, NullFormatter
 
 from granugas.plotting import PAGE, mark_panels, styled
 
+SECTION = "Cost"
 STUDIES = ()
 EXPERIMENTS = ("scaling",)
 

@@ -8,6 +8,7 @@ from matplotlib.figure import Figure
 from granugas.plotting import PAGE, draw_disks, grid_points, styled
 from granugas.snapshots import by_energy, relative_energy
 
+SECTION = "Effects"
 STUDIES = (
     "scene_cooling",
     "scene_spheres",

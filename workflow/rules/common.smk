@@ -11,8 +11,9 @@ from granugas.configuration import ConfigError, refuse_duplicate_keys
 from granugas.cost import entries, renew_table, summary
 from granugas.dynamics.events.effects import modules_of
 from granugas.jobs import Job, claim, damaged, date_now, failures, pass_on_termination, tell_progress, warm_up
+from granugas.report import entry_of
 
-HERE = Path(workflow.basedir)
+HERE = Path(workflow.current_basedir.get_path_or_uri(secret_free=True)).parents[1]  # also where another workflow uses this one
 STARTED = time.time()
 
 try:
@@ -68,6 +69,12 @@ def datasets(names, experiments):
     return [f"{OUTPUT}/studies/{name}.nc" for name in names] + [f"{OUTPUT}/experiments/{name}.nc" for name in experiments]
 
 
+def placed(file, name):
+    """Section, part and labels in the report of a figure or table with this name, as its file says."""
+    section, part, about = entry_of(HERE / file)
+    return {"category": section, "subcategory": part, "labels": {"name": name, "shows": about}}
+
+
 def tables():
     """The tables that the configuration asks for: with all figures, all tables."""
     return [f"{OUTPUT}/{name}.csv" for name in (*TABLES, *(["claims"] if CLAIMS else []))] if STUDIES.all_wanted else []
@@ -106,8 +113,10 @@ def begin(jobs):
     except OSError as error:
         sys.exit(f"output = {OUTPUT!r}: nothing can be written there ({error.strerror}); choose another folder.")
     pass_on_termination()
-    runs = {job: RUNS[job.outputs[0].stem] for job in jobs if job.rule.startswith("simulate")}
-    started = [STATES[job.outputs[0].stem] for job in jobs if job.rule == "equilibrate"]
+    made = {Path(f"{OUTPUT}/runs/{address}.nc"): run for address, run in RUNS.items()}
+    began = {Path(f"{OUTPUT}/states/{address}.nc"): run for address, run in STATES.items()}
+    runs = {job: made[job.outputs[0]] for job in jobs if job.outputs and job.outputs[0] in made}
+    started = [began[job.outputs[0]] for job in jobs if job.outputs and job.outputs[0] in began]
     if scenes := [run.scene for run in (*runs.values(), *started)]:
         warm_up(f"{OUTPUT}/logs/warm_up.log", scenes, workflow.cores)
     tell_progress({job: run.cost for job, run in runs.items()}, STARTED)

@@ -10,7 +10,11 @@ for name, needed in STUDIES.figures.items():
             drawing=f"{HERE}/workflow/figures/{drawing}.py",
             style=STYLE,
         output:
-            png=report(f"{OUTPUT}/figures/{name}.png", caption=f"../report/{drawing}.rst", category="Figures"),
+            png=report(
+                f"{OUTPUT}/figures/{name}.png",
+                caption=f"../report/{drawing}.rst",
+                **placed(f"workflow/figures/{drawing}.py", name),
+            ),
             pdf=f"{OUTPUT}/figures/{name}.pdf",
         log:
             f"{OUTPUT}/logs/figures/{name}.log",
@@ -25,7 +29,12 @@ rule animate:
     input:
         positions=lambda wildcards: f"{OUTPUT}/positions/{STUDIES.animations[wildcards.animation].run.address}.nc",
     output:
-        report(f"{OUTPUT}/figures/{{animation}}.mp4", caption="../report/animation.rst", category="Animations"),
+        report(
+            f"{OUTPUT}/figures/{{animation}}.mp4",
+            caption="../report/animation.rst",
+            category="Studies",
+            labels={"name": "{animation}", "shows": "One realization as a film"},
+        ),
     log:
         f"{OUTPUT}/logs/animations/{{animation}}.log",
     params:
@@ -63,7 +72,7 @@ rule claims:
         claims=[f"{HERE}/workflow/claims/{name}.py" for name in CLAIMS],
     output:
         table=f"{OUTPUT}/claims.csv",
-        page=report(f"{OUTPUT}/claims.md", category="Claims"),
+        page=f"{OUTPUT}/claims.md",
     log:
         f"{OUTPUT}/logs/claims.log",
     params:

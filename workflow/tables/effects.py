@@ -4,6 +4,7 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
+SECTION = "Effects"
 STUDIES = ()
 EXPERIMENTS = ("effects", "effects_cost")
 

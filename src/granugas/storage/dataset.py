@@ -135,13 +135,25 @@ def read_by_name(paths: Iterable[str | Path]) -> dict[str, xr.Dataset]:
     return {name: _table(path) if path.suffix == ".csv" else read_positions(path) for name, path in files.items()}
 
 
-def load_study(path: str | Path) -> xr.Dataset:
-    """The pooled dataset of a study, `<output>/studies/<study>.nc`, in memory.
+def load_study(study: str | Path, output: str | Path = "results") -> xr.Dataset:
+    """The pooled dataset of a study, in memory, checked against its seal.
+
+    Every variable is labelled (`units`, `long_name`, `symbol`, `equation`), over the keys of the study's grid, `realization`
+    and its own dimensions; NaN where a run had ended. `<variable>_error` is the standard error of its mean over
+    realizations, where there are several.
+
+        study = gg.load_study("cluster1999_large")
+        study["mean_cluster_size"].mean("realization").sel(distance_factor=1.1).plot(xscale="log", yscale="log")
+
+    Args:
+        study: its name, or the path of its file, which ends in `.nc`.
+        output: folder of the results, where a name is given: the key `output` of the configuration.
 
     Raises:
         FileNotFoundError: no such file; names the studies that are there.
+        DamagedFile: it is not what was written.
     """
-    path = Path(path)
+    path = Path(study) if Path(study).suffix == ".nc" else Path(output) / f"studies/{study}.nc"
     if not path.exists():
         there = ", ".join(sorted(other.stem for other in path.parent.glob("*.nc"))) or "none"
         raise FileNotFoundError(f"{path}: no such study; in {path.parent} there are: {there}")
