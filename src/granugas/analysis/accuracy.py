@@ -68,3 +68,27 @@ def _means(values: xr.DataArray, truths: xr.DataArray) -> xr.Dataset:
             "truth_error": mean_error(truths) if REALIZATION in truths.dims else xr.zeros_like(truths),
         }
     )
+
+
+def in_large_systems(measured: xr.DataArray, error: xr.DataArray, dim: str, largest: int = 3) -> xr.Dataset:
+    """The limit of large systems: where the straight line in 1/N through the means of the largest ones is at 0.
+
+    Args:
+        measured, error: means and their standard errors over numbers of particles (dim) and any other dimensions; independent.
+        largest: number of sizes that count, each by 1/error^2. The rest of a series in 1/N is taken to be small there.
+
+    Returns:
+        Dataset without `dim`: truth and truth_error.
+
+    Raises:
+        ValueError: fewer than two sizes.
+    """
+    sizes = measured.sortby(dim).isel({dim: slice(-largest, None)})
+    if sizes.sizes[dim] < 2:
+        raise ValueError(f"{dim} = {sizes[dim].values.tolist()}: at least 2 sizes are needed to extrapolate")
+    weight = 1 / error.sortby(dim).isel({dim: slice(-largest, None)}) ** 2
+    x = 1 / sizes[dim].astype(float)
+    s, sx, sxx = weight.sum(dim), (weight * x).sum(dim), (weight * x**2).sum(dim)
+    sy, sxy = (weight * sizes).sum(dim), (weight * x * sizes).sum(dim)
+    determinant = s * sxx - sx**2
+    return xr.Dataset({"truth": (sxx * sy - sx * sxy) / determinant, "truth_error": np.sqrt(sxx / determinant)})

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from granugas.analysis.accuracy import at_zero, bias, mean_error, scatter
+from granugas.analysis.accuracy import at_zero, bias, in_large_systems, mean_error, scatter
 
 
 def numbers(values, *dims, **coords) -> xr.DataArray:
@@ -74,3 +74,21 @@ def test_errors_are_as_large_as_they_say(judge):
     drawn = numbers(np.random.default_rng(1).normal(1.3, 0.2, (50, 3000)), "realization", "group")
     found = judge(drawn, numbers(1.0))
     assert float(found["relative_error_error"].mean()) == pytest.approx(float(found["relative_error"].std()), rel=0.05)
+
+
+def test_the_limit_of_large_systems_is_that_of_a_line_in_1_over_n():
+    n = xr.DataArray([10.0, 100.0, 1000.0, 10000.0], dims="setting")
+    measured = (2 + 30 / n + 5000 / n**3).assign_coords(setting=n)
+    error = xr.full_like(measured, 1e-3)
+    found = in_large_systems(measured, error, "setting")
+    assert float(found["truth"]) == pytest.approx(2, abs=2e-3)
+    assert float(in_large_systems(measured[::-1], error[::-1], "setting")["truth"]) == pytest.approx(float(found["truth"]))
+    rng = np.random.default_rng(1)
+    drawn = measured + xr.DataArray(rng.normal(0, 1e-3, (4000, 4)), dims=("draw", "setting"))
+    assert float(in_large_systems(drawn, error, "setting")["truth"].std()) == pytest.approx(float(found["truth_error"]), rel=0.05)
+
+
+def test_one_size_has_no_limit():
+    one = xr.DataArray([1.0], {"setting": [42.0]}, ("setting",))
+    with pytest.raises(ValueError, match="at least 2 sizes"):
+        in_large_systems(one, one, "setting")
