@@ -129,6 +129,45 @@ def arithmetic(data: xr.Dataset) -> list[Curve]:
     return curves
 
 
+def sizes(data: xr.Dataset) -> list[Curve]:
+    """Everything that was looked at, by its bias; the knob is the number of disks N."""
+    curves = []
+    for observable in data["observable"].values:
+        seen = data.sel(observable=observable)
+        names = [f"{n:g}" for n in seen["setting"].values] if not curves else []
+        values = (seen[key].values for key in ("cpu_seconds", "relative_error", "relative_error_error"))
+        curves.append(Curve(str(observable), *values, names))
+    return curves
+
+
+def realizations(data: xr.Dataset, most: float) -> list[Curve]:
+    """What to expect of the mean of K over more and more runs, up to `most` seconds: chance falls, the bias of N stays."""
+    seen = data.sel(observable=[name for name in data["observable"].values if name.startswith("K ")][-1])
+    curves = []
+    for n, one in seen.groupby("setting"):
+        cost, bias, spread = (float(one[key].squeeze()) for key in ("cpu_seconds", "relative_error", "relative_spread"))
+        runs = np.geomspace(1, max(most / cost, 1), 8)
+        error = np.hypot(bias, spread / np.sqrt(runs))
+        curves.append(Curve(f"$N = {n:g}$", runs * cost, error, np.zeros_like(error)))
+    return curves
+
+
+def exponents(data: xr.Dataset, most: float) -> list[Curve]:
+    """The exponent of <M> of the largest system but one: by chance, over S_c, over fit windows."""
+    one = data.sortby("setting").isel(setting=-2)
+    chosen = one.sel(distance_factor=data.attrs["distance_factor"], window_shift=1.0)
+    seen = chosen.sel(observable="exponent of <M>")
+    exponent, spread, cost = (float(abs(seen[key])) for key in ("exponents", "measured_spread", "cpu_seconds"))
+    runs = np.geomspace(1, max(most / cost, 1), 6)
+    at_factor = one["exponents"].sel(distance_factor=data.attrs["distance_factor"])
+    over = {
+        "chance": spread / np.sqrt(runs),
+        "$S_c$": np.full_like(runs, float(one["exponents"].sel(window_shift=1.0).std("distance_factor"))),
+        "fit window": np.full_like(runs, float(at_factor.std("window_shift"))),
+    }
+    return [Curve(label, runs * cost, error / exponent, np.zeros_like(error)) for label, error in over.items()]
+
+
 def accuracy_figure(panels: Mapping[str, Sequence[Curve]], seconds: tuple[float, float], error: tuple[float, float]) -> Figure:
     """The page: a panel for each title, the same axes for all.
 

@@ -62,6 +62,7 @@ for (const head of heads) {
 document.querySelector("input").oninput = event => search(event.target.value.toLowerCase().split(/\\s+/));
 </script>"""
 
+
 class Entry(NamedTuple):
     """A figure or a table in the report.
 

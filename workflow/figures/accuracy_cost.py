@@ -4,10 +4,19 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from granugas.plotting import styled
-from granugas.plotting_accuracy import accuracy_figure, arithmetic, contact_time, equilibration, sampling
+from granugas.plotting_accuracy import (
+    accuracy_figure,
+    arithmetic,
+    contact_time,
+    equilibration,
+    exponents,
+    realizations,
+    sampling,
+    sizes,
+)
 
 STUDIES = ()
-EXPERIMENTS = ("accuracy_contact_time", "accuracy_sampling", "accuracy_equilibration", "accuracy_arithmetic")
+EXPERIMENTS = ("accuracy_contact_time", "accuracy_sizes", "accuracy_sampling", "accuracy_equilibration", "accuracy_arithmetic")
 SECONDS, ERROR = (5e-4, 2e2), (1e-4, 20.0)
 """The axes of all panels."""
 
@@ -20,5 +29,8 @@ def draw(data: dict[str, xr.Dataset]) -> Figure:
         "sampling": sampling(data["accuracy_sampling"]),
         "collisions of a particle before the start": equilibration(data["accuracy_equilibration"]),
         "arithmetic": arithmetic(data["accuracy_arithmetic"]),
+        "number of disks $N$": sizes(data["accuracy_sizes"]),
+        "realizations, $K$": realizations(data["accuracy_sizes"], SECONDS[1]),
+        r"exponent of $\langle M \rangle$": exponents(data["accuracy_sizes"], SECONDS[1]),
     }
     return accuracy_figure(panels, SECONDS, ERROR)
