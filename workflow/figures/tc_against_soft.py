@@ -22,7 +22,7 @@ def draw(data: dict[str, xr.Dataset]) -> Figure:
     for axes, model in ((soft, "soft"), (hard, "TC")):
         against_number(axes, left.sel(model=model), left.sel(model="IHS"))
         axes.text(0.04, 0.04, {"soft": "soft beads", "TC": "TC model"}[model], transform=axes.transAxes)
-    soft.set(ylabel=r"$\sqrt{E'/E}$", ylim=(0, 1.03))
+    soft.set(ylabel=r"$\sqrt{E'/E}$", ylim=(-0.02, 1.03))
     hard.legend(title="$s/(v t_c)$", loc="center right", bbox_to_anchor=(1.0, 0.6))
     against_interval(both, left)
     mark_panels(*panels)
@@ -43,8 +43,9 @@ def against_number(axes: Axes, left: xr.DataArray, plain: xr.DataArray) -> None:
 
 
 def against_interval(axes: Axes, left: xr.DataArray) -> None:
-    """Lines: soft beads; points: TC; short strokes at the right edge: IHS."""
-    axes.set(xscale="log", xlabel="$s/(v t_c)$")
+    """Lines: soft beads; points: TC; dashes on the right: IHS, at no interval in particular."""
+    longest = float(left["impact_interval"].max())
+    axes.set(xscale="log", xlabel="$s/(v t_c)$", xlim=(left["impact_interval"].min() / 1.5, 5 * longest))
     sizes = [n for n in SIZES if n in left["n_particles"]]
     handles = []
     for n, colour, marker in zip(sizes, shades(len(sizes)), MARKERS, strict=False):
@@ -53,6 +54,7 @@ def against_interval(axes: Axes, left: xr.DataArray) -> None:
         axes.plot(
             hard["impact_interval"], hard, color=colour, linestyle=":", linewidth=0.7, marker=marker, markerfacecolor="none"
         )
-        axes.plot([0.96, 1.0], [plain[-1]] * 2, color=colour, linewidth=2, transform=axes.get_yaxis_transform())
+        axes.plot([1.8 * longest, 4 * longest], [plain[-1]] * 2, color=colour, linestyle=(0, (2, 1)))
         handles.append(Line2D([], [], color=colour, marker=marker, markerfacecolor="none", label=f"${n}$"))
+    axes.text(2.7 * longest, 0.67, "IHS", ha="center", fontsize="small")
     axes.legend(handles=handles, title="$N$; lines: soft,\npoints: TC", loc="lower left")
