@@ -36,13 +36,20 @@ MOST_DAMPED = 0.2
 steps are stable below 1."""
 
 
+DSMC_KEYS = (
+    *("n_particles", "area_fraction", "restitution", "contact_time", "diameter", "velocity_half_width", "dynamics"),
+    *("lattice", "dimensions", "aspect_ratio", "particles_per_cell"),
+)
+"""Keys that scenes with dynamics = dsmc may name."""
+
+
 def refuse_what_does_not_go_together(scene: "Scene") -> None:
     """See whether the keys of a scene, each of which may hold what it does, do so together.
 
     Raises:
         SceneError: they do not.
     """
-    for family in (_space, _contact_times, _driving, _walls, _materials, _models, _merging_beads, _soft_spheres):
+    for family in (_space, _contact_times, _driving, _walls, _materials, _models, _merging_beads, _soft_spheres, _dsmc):
         family(scene)
 
 
@@ -186,3 +193,20 @@ def _soft_spheres(scene: "Scene") -> None:
         if steps < (fewest := math.ceil(-2 * math.log(r) / MOST_DAMPED)):
             allowed = f"allowed is at least {fewest} at {kind}restitution = {r:g}, where the dashpot is as strong"
             raise SceneError("steps_per_contact", steps, allowed)
+
+
+def _dsmc(scene: "Scene") -> None:
+    if scene.dynamics != "dsmc":
+        if (value := scene.particles_per_cell) != (default := default_of(scene, "particles_per_cell")):
+            raise SceneError(
+                "particles_per_cell", value, f"allowed is {default:g} unless dynamics = dsmc: it draws partners in cells"
+            )
+        return
+    if scene.dimensions == 1:
+        allowed = "allowed is events in one dimension: beads on a line meet their neighbours only, never random partners"
+        raise SceneError("dynamics", scene.dynamics, allowed)
+    if others := named_beside(scene, DSMC_KEYS):
+        allowed = (
+            f"allowed is events with {', '.join(others)}: dsmc knows smooth equal particles in a periodic box and nothing else"
+        )
+        raise SceneError("dynamics", scene.dynamics, allowed)

@@ -78,7 +78,8 @@ def doubts_before(scene: Scene, start: Mapping[str, Any], cells: Sequence[int], 
             f"heating = {scene.heating:g} m^2/s^3 at restitution = 1: nothing dissipates, the energy grows without end"
         )
     lines += _without_effect(scene)
-    if min((count for count, wall in zip(cells, scene.walled, strict=True) if not wall), default=FEWEST_CELLS) < FEWEST_CELLS:
+    around = [count for count, wall in zip(cells, scene.walled, strict=True) if not wall and scene.dynamics != "dsmc"]
+    if min(around, default=FEWEST_CELLS) < FEWEST_CELLS:
         sides = " x ".join(f"{float(start[f'box_{axis}']) / scene.diameter:.3g}" for axis in "xyz"[: scene.dimensions])
         lines.append(
             f"box of {sides} diameters in {' x '.join(map(str, cells))} cells: with fewer than {FEWEST_CELLS} in a direction "

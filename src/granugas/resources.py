@@ -17,6 +17,9 @@ START = 16
 SOFT = {1: 250, 2: 380, 3: 600}
 """The same of soft spheres, and what makes their cells (measured; the list of pairs grows with t_c)."""
 
+DSMC = {2: 310, 3: 400}
+"""The same of direct simulation Monte Carlo, with the copies by which it looks into a step."""
+
 UNEQUAL, HEATED = 48, 48
 """Bytes a particle more where sizes differ (in the tables, two states and the record), and while kicks are drawn."""
 
@@ -41,9 +44,8 @@ def memory_of(run: Run) -> int:
     of_disks = n * (8 + frame * samples + (SNAPSHOT + 16 * axes + WINDOW) * len(run.snapshots))
     kept = of_disks + samples * (SAMPLE + OF_CONTACT_TIME * len(run.scene.contact_times))
     copies = 2 if realizations > 1 else 1
-    engine = (
-        (SOFT if run.scene.soft else ENGINE)[axes] + UNEQUAL * (run.scene.sizes != "equal") + HEATED * (run.scene.heating > 0)
-    )
+    of_method = {"events": ENGINE, "soft_spheres": SOFT, "dsmc": DSMC}[run.scene.dynamics][axes]
+    engine = of_method + UNEQUAL * (run.scene.sizes != "equal") + HEATED * (run.scene.heating > 0)
     engine += MODE * run.scene.internal_modes
     return n * (engine + START * (1 + axes) * realizations) + kept * realizations * copies
 

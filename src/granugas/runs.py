@@ -13,9 +13,10 @@ GRID_KEYS = tuple(SCENE_KEYS[: SCENE_KEYS.index("lattice") + 1])
 """Keys that every scene has; the others, effects, enter an address only where they are not the default."""
 
 START_SECONDS = 2.0
-SECONDS_PER_COLLISION = 1e-6
+SECONDS_PER_COLLISION, SECONDS_OF_DSMC = 1e-6, 1e-7
 SECONDS_PER_STEP = 1e-8
-"""What a job costs before its first collision, each collision, and each step of a soft sphere: to plan with."""
+"""What a job costs before its first collision, each collision (by events, of random partners) and each step of a soft sphere:
+to plan with."""
 
 MOST_IN_COOLING = 100.0
 """Exponent of a cooling gas (B Eq. 3) up to which the time is expected that its collisions take; numbers would overflow."""
@@ -102,7 +103,8 @@ class Run:
         collisions = tau if self.scene.restitution == 1 or self.scene.heating > 0 else _collisions_in_cooling(tau, self.scene)
         collisions = min(collisions, self.until.get("collisions_per_particle", math.inf))
         collisions *= len(self.realizations)
-        return START_SECONDS + SECONDS_PER_COLLISION * self.scene.n_particles * collisions / 2
+        seconds = SECONDS_OF_DSMC if scene.dynamics == "dsmc" else SECONDS_PER_COLLISION
+        return START_SECONDS + seconds * self.scene.n_particles * collisions / 2
 
 
 def _time_in_cooling(until: Mapping[str, float], rate: float, scene: Scene) -> float:

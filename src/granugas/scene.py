@@ -32,7 +32,8 @@ class Scene:
         contact_time: t_c of A Eq. 4 in s; a tuple of them at restitution 1, where one trajectory serves all.
         diameter: d in m.
         velocity_half_width: w in m/s; components start uniform in +-w, so that E(0) = D N m w^2 / 6 in D dimensions.
-        dynamics: the method that moves the particles: hard ones from event to event, or soft ones in steps of time.
+        dynamics: the method that moves the particles: hard ones from event to event, or by random partners in cells (dsmc), or
+            soft ones in steps of time.
         lattice: start lattice; "auto" holds any N.
         dimensions: D of space: beads on a ring, disks in a plane, spheres.
         boundary: of the box: "periodic", "wall", or one of them for each axis ("periodic wall": walls along y alone).
@@ -64,6 +65,7 @@ class Scene:
         mode_damping: gamma in 1/s: their energy falls as exp(-gamma t).
         lrv_velocity: in m/s; contacts of beads that are slower merge into clusters (LRV model, A section 3.i); 0: none do.
         steps_per_contact: of soft spheres: steps in which t_c passes.
+        particles_per_cell: of dsmc, on average: random partners come from one cell.
 
     Raises:
         SceneError: a value outside of what is allowed.
@@ -75,7 +77,7 @@ class Scene:
     contact_time: float | tuple[float, ...] = contact_time_key(1.0e-5)
     diameter: float = number(1.0e-3, above=0.0, within=EXTREME, unit="m", start=True)
     velocity_half_width: float = number(0.5, above=0.0, within=EXTREME, unit="m/s", start=True)
-    dynamics: str = choice("events", "soft_spheres")
+    dynamics: str = choice("events", "soft_spheres", "dsmc")
     lattice: str = choice(*LATTICES, start=True)
     dimensions: int = choice(2, 1, 3, start=True)
     boundary: str = boundary_key("periodic")
@@ -106,6 +108,7 @@ class Scene:
     mode_damping: float = number(0.0, at_least=0.0, unit="1/s")
     lrv_velocity: float = number(0.0, at_least=0.0, at_most=EXTREME, unit="m/s")
     steps_per_contact: int = integer(50, 10, 1000)
+    particles_per_cell: float = number(40.0, at_least=2.0, at_most=1.0e4)
 
     def __post_init__(self) -> None:
         if isinstance(self.contact_time, (tuple, list)):

@@ -32,6 +32,10 @@ SCENES = {
         Scene(60, 0.4, restitution=0.7, contact_time=1e-3, dynamics="soft_spheres", boundary="wall", steps_per_contact=10),
         {"until": 0.05, "samples": {"count": 20}, "snapshots": (0.0, 0.01, 0.05), "keep_motion": True},
     ),
+    "random partners": (
+        Scene(500, 0.3, restitution=0.7, contact_time=1e-4, dynamics="dsmc"),
+        {"until": {"time": 0.2, "collisions_per_particle": 40}, "samples": {"count": 40}, "snapshots": (0.0, 0.02)},
+    ),
     "few disks": (Scene(5, 0.1, restitution=0.9, contact_time=1e-6), {"until": 2.0, "samples": {"count": 100}}),
 }
 

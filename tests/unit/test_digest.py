@@ -122,9 +122,12 @@ def test_an_unknown_module_is_refused(name):
 
 LRV = (*sources.EVENTS, "granugas.dynamics.lrv")
 SOFT = (*sources.EVENTS, *modules_of(Scene(dynamics="soft_spheres")))
+DSMC = (*sources.EVENTS, *modules_of(Scene(dynamics="dsmc")))
 
 
-@pytest.mark.parametrize("modules", [(*sources.EVENTS, "granugas.dynamics.events.effects.*"), LRV, SOFT, sources.ANALYSIS])
+@pytest.mark.parametrize(
+    "modules", [(*sources.EVENTS, "granugas.dynamics.events.effects.*"), LRV, SOFT, DSMC, sources.ANALYSIS]
+)
 def test_what_decides_numbers_is_covered(modules):
     """Whatever a covered module imports of the package is covered too, or decides no number (scenes only check theirs)."""
     covered = {name for module in modules for name, _ in sources._source_files(module)}
@@ -145,6 +148,9 @@ def test_an_effect_counts_where_a_scene_calls_for_it():
     soft = modules_of(Scene(dynamics="soft_spheres"))
     assert soft == tuple(f"granugas.dynamics.{name}" for name in ("neighbours", "soft_contact", "soft_steps", "softspheres"))
     assert not {*soft} & {*modules_of(dissipative, elastic, beads)}
+    random = modules_of(Scene(dynamics="dsmc"))
+    assert random == tuple(f"granugas.dynamics.{name}" for name in ("dsmc", "dsmc_collisions", "dsmc_steps"))
+    assert not {*random} & {*modules_of(dissipative, elastic, beads)}
     assert len({sources.physics(called), sources.physics(modules_of(elastic)), sources.physics()}) == 3
 
 

@@ -209,6 +209,7 @@ def test_the_process_that_compiles_ahead_reads_the_scenes_as_they_are(tmp_path: 
         Scene(restitution=1.0, contact_time=(1e-5, 1e-3)),
         Scene(dimensions=1, contact_time=0.0, lrv_velocity=0.1),
         Scene(dynamics="soft_spheres"),
+        Scene(dynamics="dsmc"),
     ]
     warm_up(tmp_path / "log", scenes)
     assert (tmp_path / "log").read_text() == ""

@@ -38,11 +38,13 @@ def run_of(n=2000, count=10, realizations=(0,), snapshots=(), keep_positions=Fal
         run_of(n=5000, heating=1e-9),
         run_of(n=5000, dynamics="soft_spheres", contact_time=1e-4),
         run_of(n=5000, dynamics="soft_spheres", contact_time=1e-4, dimensions=3),
+        run_of(n=50_000, dynamics="dsmc"),
+        run_of(n=50_000, dynamics="dsmc", dimensions=3),
     ],
     ids=[
         *("disks", "positions", "motion", "snapshots", "realizations", "samples"),
         *("spheres", "positions of spheres", "beads", "sizes", "heated"),
-        *("soft disks", "soft spheres"),
+        *("soft disks", "soft spheres", "dsmc", "dsmc of spheres"),
     ],
 )
 def test_the_estimate_is_near_what_is_taken(run):

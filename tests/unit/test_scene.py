@@ -74,7 +74,7 @@ WRONG = [
     ("friction", -0.1, "a number >= 0, or .inf"),
     ("friction", math.nan, "a number >= 0, or .inf"),
     ("friction", -math.inf, "a number >= 0, or .inf"),
-    ("dynamics", "dsmc", "events, soft_spheres"),
+    ("dynamics", "monte_carlo", "events, soft_spheres, dsmc"),
     ("steps_per_contact", 9, "an integer from 10 to 1000"),
     ("steps_per_contact", 50.0, "an integer from 10 to 1000"),
     ("steps_per_contact", 100, "50 unless dynamics = soft_spheres"),

@@ -55,6 +55,10 @@ def engine_of(scene: "Scene", state: "State", **instead: Any) -> Dynamics:
         from granugas.dynamics.softspheres import SoftSpheres
 
         return SoftSpheres(scene, state, **instead)
+    if scene.dynamics == "dsmc":
+        from granugas.dynamics.dsmc import Dsmc
+
+        return Dsmc(scene, state, **instead)
     from granugas.dynamics.events.engine import Engine
 
     return Engine(scene, state, **instead)

@@ -76,6 +76,7 @@ VARIABLES = {
     "mode_damping": Variable("s-1", "rate at which the energy of internal modes falls", "gamma", "A section 3"),
     "lrv_velocity": Variable("m s-1", "relative velocity below which contacts of beads merge into clusters", "", "A section 3"),
     "steps_per_contact": Variable("1", "steps of the integration in a contact of two soft spheres", "t_c / dt"),
+    "particles_per_cell": Variable("1", "mean number of particles in a cell of direct simulation Monte Carlo"),
     # its start state
     "box_x": Variable("m", "side of the box along x", "L_x"),
     "box_y": Variable("m", "side of the box along y", "L_y"),

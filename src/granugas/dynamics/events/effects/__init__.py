@@ -8,6 +8,9 @@ from granugas.scene import Scene
 SOFT = ("neighbours", "soft_contact", "soft_steps", "softspheres")
 """Files of the dynamics of soft spheres."""
 
+DSMC = ("dsmc", "dsmc_collisions", "dsmc_steps")
+"""Files of direct simulation Monte Carlo."""
+
 
 def called_by(scene: Scene) -> dict[str, str | tuple[str, ...]]:
     """The effect files that a scene calls for, by the place that each takes (cast.effects_of).
@@ -16,7 +19,7 @@ def called_by(scene: Scene) -> dict[str, str | tuple[str, ...]]:
     restitution where the rule leaves it to it. Several files in one place: each rule asks the next one where it does not
     decide, the last one the material; what follows a collision happens in this order.
     """
-    if scene.lrv_velocity > 0 or scene.soft:
+    if scene.lrv_velocity > 0 or scene.soft or scene.dynamics == "dsmc":
         return {}  # of another dynamics
     dissipates, lasting = scene.dissipates, any(scene.contact_times)
     called = {"material": scene.material, "rule": "hard", "watch": "nobody"}
@@ -57,6 +60,7 @@ def modules_of(*scenes: Scene) -> tuple[str, ...]:
     names = {f"{__name__}.{name}" for scene in scenes for held in called_by(scene).values() for name in several(held)}
     names |= {"granugas.dynamics.lrv" for scene in scenes if scene.lrv_velocity > 0}
     names |= {f"granugas.dynamics.{name}" for scene in scenes if scene.soft for name in SOFT}
+    names |= {f"granugas.dynamics.{name}" for scene in scenes if scene.dynamics == "dsmc" for name in DSMC}
     return tuple(sorted(names))
 
 
