@@ -5,7 +5,7 @@ VENV := .venv/bin
 SNAKEMAKE := $(VENV)/snakemake --cores $(CORES)
 PYTEST := SLURM_CONF=/dev/null MPLBACKEND=Agg $(VENV)/python -m pytest -n $(CORES) --dist loadfile
 
-.PHONY: help figures preview report test test-full bench gallery prune lint lock clean
+.PHONY: help figures preview report test test-full bench docs gallery prune lint lock clean
 
 help:
 	@echo 'make figures    all figures at full size, into results/'
@@ -14,10 +14,11 @@ help:
 	@echo 'make test       all tests but the long ones'
 	@echo 'make test-full  all tests'
 	@echo 'make bench      speed of the engine, into results/bench.csv'
+	@echo 'make docs       the documentation, into docs/_build/html'
 	@echo 'make gallery    copy final figures and tables into results/gallery/'
 	@echo 'make prune      remove runs that no study names any more, after a question (OVERLAYS=mine.yaml for more studies)'
 	@echo 'make lint       style of the code'
-	@echo 'make lock       pin what pyproject.toml asks for (without requirements.lock: in its newest version)'
+	@echo 'make lock       pin what pyproject.toml asks for (without the lock files: in its newest version)'
 	@echo 'make clean      remove caches; results and .venv stay'
 
 figures: .venv/.installed
@@ -33,11 +34,15 @@ report: .venv/.installed
 test: .venv/.installed
 	$(PYTEST)
 
-test-full: .venv/.installed
+test-full: .venv/.docs
 	$(PYTEST) -m ""
 
 bench: .venv/.installed
 	$(VENV)/python benchmarks/speed.py
+
+docs: .venv/.docs
+	$(VENV)/sphinx-build -W --keep-going -q docs docs/_build/html
+	@echo 'The documentation: docs/_build/html/index.html'
 
 gallery: .venv/.installed
 	$(VENV)/python -m granugas.storage.gallery results
@@ -49,14 +54,17 @@ lint: .venv/.installed
 	$(VENV)/ruff check .
 	$(VENV)/ruff format --check .
 
+LOCK := .lock/bin/uv pip compile --quiet --universal --generate-hashes --no-emit-index-url --python-version 3.11 pyproject.toml
+
 lock:
 	@$(PYTHON) -m venv .lock
 	@.lock/bin/python -m pip install --quiet uv
-	.lock/bin/uv pip compile --quiet --universal --generate-hashes --no-emit-index-url --python-version 3.11 --all-extras pyproject.toml -o requirements.lock
+	$(LOCK) --extra workflow --extra test --extra develop -o requirements.lock
+	$(LOCK) --extra docs -c requirements.lock -o requirements-docs.lock
 	@rm -rf .lock
 
 clean:
-	rm -rf .lock .pytest_cache .ruff_cache .hypothesis .coverage htmlcov build dist
+	rm -rf .lock .pytest_cache .ruff_cache .hypothesis .coverage htmlcov build dist docs/_build
 	find . -name __pycache__ -not -path './.venv/*' -prune -exec rm -rf {} +
 
 .venv/.installed: requirements.lock pyproject.toml
@@ -66,4 +74,8 @@ clean:
 	@$(PYTHON) -m venv .venv
 	@$(VENV)/python -m pip install --quiet --disable-pip-version-check --require-hashes --no-deps -r requirements.lock
 	@$(VENV)/python -m pip install --quiet --disable-pip-version-check --no-deps -e .
+	@touch $@
+
+.venv/.docs: .venv/.installed requirements-docs.lock
+	@$(VENV)/python -m pip install --quiet --disable-pip-version-check --require-hashes --no-deps -r requirements-docs.lock
 	@touch $@
