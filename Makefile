@@ -5,13 +5,14 @@ VENV := .venv/bin
 SNAKEMAKE := $(VENV)/snakemake --cores $(CORES)
 PYTEST := SLURM_CONF=/dev/null MPLBACKEND=Agg $(VENV)/python -m pytest -n $(CORES) --dist loadfile
 
-.PHONY: help figures preview test test-full bench gallery prune lint lock clean
+.PHONY: help figures preview test test-full test-pages bench gallery prune lint lock clean
 
 help:
 	@echo 'make figures    all figures at full size, into results/'
 	@echo 'make preview    the same figures, small and in minutes, into results/preview/'
 	@echo 'make test       all tests but the long ones'
 	@echo 'make test-full  all tests'
+	@echo 'make test-pages open the explorer in Chromium and datasets with ncdump (packages chromium and netcdf-bin)'
 	@echo 'make bench      speed of the engine, into results/bench.csv'
 	@echo 'make gallery    copy final figures and tables into results/gallery/'
 	@echo 'make prune      remove runs that no study names any more, after a question (OVERLAYS=mine.yaml for more studies)'
@@ -29,7 +30,13 @@ test: .venv/.installed
 	$(PYTEST)
 
 test-full: .venv/.installed
-	$(PYTEST) -m ""
+	$(PYTEST) -m "not pages"
+
+test-pages: .venv/.pages
+	@missing=; for need in chromium:chromium ncdump:netcdf-bin; do \
+		command -v $${need%%:*} > /dev/null || missing="$$missing $${need##*:}"; done; \
+		test -z "$$missing" || { echo "Missing packages of the distribution: apt-get install$$missing"; exit 1; }
+	$(PYTEST) -m pages -n 0 tests/pages
 
 bench: .venv/.installed
 	$(VENV)/python benchmarks/speed.py
@@ -48,6 +55,7 @@ lock:
 	@$(PYTHON) -m venv .lock
 	@.lock/bin/python -m pip install --quiet uv
 	.lock/bin/uv pip compile --quiet --universal --generate-hashes --no-emit-index-url --python-version 3.11 --all-extras pyproject.toml -o requirements.lock
+	.lock/bin/uv pip compile --quiet --universal --generate-hashes --no-emit-index-url --python-version 3.11 --group pages -c requirements.lock -o requirements-pages.lock
 	@rm -rf .lock
 
 clean:
@@ -61,4 +69,8 @@ clean:
 	@$(PYTHON) -m venv .venv
 	@$(VENV)/python -m pip install --quiet --disable-pip-version-check --require-hashes --no-deps -r requirements.lock
 	@$(VENV)/python -m pip install --quiet --disable-pip-version-check --no-deps -e .
+	@touch $@
+
+.venv/.pages: .venv/.installed requirements-pages.lock
+	@$(VENV)/python -m pip install --quiet --disable-pip-version-check --require-hashes --no-deps -r requirements-pages.lock
 	@touch $@

@@ -18,6 +18,7 @@ rule all:
         [f"{OUTPUT}/figures/{name}.{kind}" for name in STUDIES.wanted for kind in ("png", "pdf")],
         tables(),
         animations(),
+        explorer(),
         REMOVED,
 
 
@@ -35,4 +36,4 @@ onsuccess:
 
 
 onerror:
-    print(failures(planned(workflow.dag), STARTED, finals=["figure", "table", "claims", "pool", "check"]))
+    print(failures(planned(workflow.dag), STARTED, finals=["figure", "table", "claims", "explorer", "pool", "check"]))

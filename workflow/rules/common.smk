@@ -34,6 +34,7 @@ STYLE = [digest.SOURCES / name for name in ("plotting.py", "snapshots.py", "gran
 ANALYSIS = digest.digest(digest.ANALYSIS)
 FORMULAS = digest.digest(["granugas.analysis.*"])
 STORAGE = digest.digest(["granugas.storage.*"])
+EXPLORED = STUDIES.explored()
 
 if STUDIES.left_out and workflow.is_main_process:
     for name, missing in STUDIES.left_out.items():
@@ -74,6 +75,11 @@ def tables():
 def animations():
     """The animations that the configuration asks for: with all figures, all animations."""
     return [f"{OUTPUT}/figures/{name}.mp4" for name in STUDIES.animations] if STUDIES.all_wanted else []
+
+
+def explorer():
+    """The explorer: with all figures, if there is a run that it can show."""
+    return [f"{OUTPUT}/explorer.html"] if STUDIES.all_wanted and EXPLORED else []
 
 
 def planned(dag):
