@@ -78,21 +78,6 @@ class Animation:
 
 
 @dataclass(frozen=True)
-class Shown:
-    """A run in the explorer.
-
-    Attributes:
-        label: its study, and what sets it apart there.
-        run: which keeps its positions.
-        clusters: the address of its cluster analysis; None where there is none.
-    """
-
-    label: str
-    run: Run
-    clusters: str | None
-
-
-@dataclass(frozen=True)
 class Studies:
     """Everything that a configuration asks for.
 
@@ -115,19 +100,6 @@ class Studies:
     all_wanted: bool
     animations: Mapping[str, Animation]
     small_experiments: bool = False
-
-    def explored(self) -> list[Shown]:
-        """The runs of the explorer: first realizations in two dimensions that keep their positions, the filmed ones first."""
-        found: dict[str, Shown] = {}
-        for study in self.studies.values():
-            analyses = {run.address: clusters for clusters, run in study.clusters().items()}
-            firsts = [run for run in study.runs if run.keep_positions and run.scene.dimensions == 2 and 0 in run.realizations]
-            scenes = [run.scene.as_dict() for run in firsts]
-            varied = [key for key in study.grid_keys if len({str(scene[key]) for scene in scenes}) > 1]
-            for run, scene in zip(firsts, scenes, strict=True):
-                label = ", ".join([study.name, *(f"{key} = {scene[key]}" for key in varied)])
-                found.setdefault(run.address, Shown(label, run, analyses.get(run.address)))
-        return sorted(found.values(), key=lambda shown: not shown.run.keep_motion)
 
     def possible(self, products: Mapping[str, tuple[str, ...]]) -> dict[str, tuple[str, ...]]:
         """Those products (tables, claims) whose studies are all configured."""

@@ -2,7 +2,7 @@
 
 import subprocess
 
-from explored import made_up_run, source_of
+from bands import made_up_run, source_of
 
 
 def test_ncdump_opens_datasets(tmp_path):

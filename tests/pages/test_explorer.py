@@ -6,7 +6,7 @@ import time
 
 import numpy as np
 import pytest
-from explored import made_up_run, source_of
+from bands import made_up_run, source_of
 from PIL import Image
 
 from granugas.analysis.clusters import find_clusters

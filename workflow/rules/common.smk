@@ -9,6 +9,7 @@ import yaml
 from granugas import digest, studies
 from granugas.configuration import ConfigError, refuse_duplicate_keys
 from granugas.dynamics.events.effects import modules_of
+from granugas.explored import explored
 from granugas.jobs import Job, claim, damaged, date_now, failures, pass_on_termination, tell_progress, warm_up
 
 HERE = Path(workflow.basedir)
@@ -34,7 +35,7 @@ STYLE = [digest.SOURCES / name for name in ("plotting.py", "snapshots.py", "gran
 ANALYSIS = digest.digest(digest.ANALYSIS)
 FORMULAS = digest.digest(["granugas.analysis.*"])
 STORAGE = digest.digest(["granugas.storage.*"])
-EXPLORED = STUDIES.explored()
+EXPLORED = explored(STUDIES)
 
 if STUDIES.left_out and workflow.is_main_process:
     for name, missing in STUDIES.left_out.items():

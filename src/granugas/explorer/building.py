@@ -26,7 +26,7 @@ FRAMES, LEAST = 40, 4
 WEIGHT = 3
 """A run whose motion is kept gets so many times the frames of another."""
 
-SCRIPTS = ("packed", "clusters", "camera", "painter", "colours", "overlay", "curves", "panel", "player", "main")
+SCRIPTS = ("packed", "clusters", "camera", "painter", "colours", "overlay", "curves", "panel", "player", "pointer", "main")
 WORKER = ("packed", "clusters", "worker")
 """Scripts of the page and of the worker that finds clusters beside it, each after those that it imports."""
 

@@ -114,18 +114,16 @@ def frame_of(grid: Grid, positions: Numbers, values: Arrays) -> dict[str, NDArra
 def packed(frame: Arrays) -> tuple[list[tuple[str, str, int]], str]:
     """A frame as (name, kind, length) of its arrays and one text: base64 of what zlib makes of their bytes.
 
-    The lowest bytes of an array stand together, then the next: those that say little take little room.
+    The lowest bytes of an array stand together, then the next, each with a code of its own: those that say little take little
+    room.
     """
     layout = [(name, f"u{array.itemsize}", len(array)) for name, array in frame.items()]
-    planes = [
-        array.astype(f"<u{array.itemsize}").view(np.uint8).reshape(len(array), array.itemsize).T for array in frame.values()
-    ]
-    data = b"".join(plane.tobytes() for plane in planes)
-    return layout, base64.b64encode(zlib.compress(data, 9)).decode()
-
-
-def _planes(array: NDArray[Any]) -> bytes:
-    return array.view(np.uint8).reshape(len(array), array.itemsize).T.tobytes()
+    stream = zlib.compressobj(9, strategy=zlib.Z_FILTERED)
+    data = b""
+    for array in frame.values():
+        for plane in array.astype(f"<u{array.itemsize}").view(np.uint8).reshape(len(array), array.itemsize).T:
+            data += stream.compress(plane.tobytes()) + stream.flush(zlib.Z_FULL_FLUSH)
+    return layout, base64.b64encode(data + stream.flush()).decode()
 
 
 def _close_calls(

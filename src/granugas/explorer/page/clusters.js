@@ -31,10 +31,10 @@ function contactOf(run, factor) {
 }
 
 /**
- * Unite the disks of two cells that are in contact; of one cell with itself where across is null.
+ * Visit the disks of two cells that are in contact; of one cell with itself where across is null.
  * across = [columns, rows] from the first cell to the second, so no periodic image has to be looked for.
  */
-function join(root, frame, contact, home, other, across) {
+function eachContact(frame, contact, home, other, across, visit) {
   const { start, x, y, size } = frame;
   const { stepX, stepY, reach, reachOfSize } = contact;
   const shiftX = across ? across[0] * contact.steps : 0;
@@ -47,29 +47,25 @@ function join(root, frame, contact, home, other, across) {
       const dx = (x[j] - fromX) * stepX;
       const dy = (y[j] - fromY) * stepY;
       const near = size ? reachOfSize * (size[i] + size[j]) : reach;
-      if (dx * dx + dy * dy <= near * near) unite(root, i, j);
+      if (dx * dx + dy * dy <= near * near) visit(i, j);
     }
   }
 }
 
 /**
- * The clusters of a frame: `root` (the disk that stands for each disk's cluster), `sizes` (M_i, at the roots),
- * I_c = `count`, <M> = `mean`, M_max = `largest`.
+ * Call visit(i, j) for the bonds of a frame at S_c, those that decide its clusters.
  *
  * At an S_c of the dataset rounded places decide only what they can; the frame names the bonds that are too close to call.
  */
-export function findClusters(run, frame, S_c) {
+export function eachBond(run, frame, S_c, visit) {
   const [columns, rows] = run.cells;
   const exact = run.factors.indexOf(S_c);
   const contact = contactOf(run, exact < 0 ? S_c : S_c - run.margin);
-  const n = frame.x.length;
-  const root = new Int32Array(n);
-  for (let i = 0; i < n; i++) root[i] = i;
   for (let row = 0; row < rows; row++) {
     for (let column = 0; column < columns; column++) {
       const home = row * columns + column;
       if (frame.start[home] === frame.start[home + 1]) continue;
-      join(root, frame, contact, home, home, null);
+      eachContact(frame, contact, home, home, null, visit);
       for (const across of NEIGHBOURS) {
         let beside = column + across[0];
         let above = row + across[1];
@@ -81,14 +77,23 @@ export function findClusters(run, frame, S_c) {
           if (!run.periodic[1]) continue;
           above = 0;
         }
-        join(root, frame, contact, home, above * columns + beside, across);
+        eachContact(frame, contact, home, above * columns + beside, across, visit);
       }
     }
   }
   if (exact >= 0) {
     const [first, second] = frame.close[exact];
-    for (let b = 0; b < first.length; b++) unite(root, first[b], second[b]);
+    for (let b = 0; b < first.length; b++) visit(first[b], second[b]);
   }
+}
+
+/**
+ * The clusters of a frame: `root` (the disk that stands for each disk's cluster), `sizes` (M_i, at the roots),
+ * I_c = `count`, <M> = `mean`, M_max = `largest`.
+ */
+export function findClusters(run, frame, S_c) {
+  const root = Int32Array.from({ length: frame.x.length }, (_, i) => i);
+  eachBond(run, frame, S_c, (i, j) => unite(root, i, j));
   return { root, ...numbersOf(root) };
 }
 

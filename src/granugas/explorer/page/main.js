@@ -5,16 +5,21 @@ import { findClusters, largestOf } from "./clusters.js";
 import { Camera } from "./camera.js";
 import { Painter, eachSeen, radiusOf } from "./painter.js";
 import { byCluster, byLevel } from "./colours.js";
-import { drawEdges, drawNames, drawScaleBar } from "./overlay.js";
+import { drawBonds, drawEdges, drawNames, drawScaleBar } from "./overlay.js";
 import { Plot } from "./curves.js";
 import { choices, drawBar, drawTicks, element, figures, press, sceneOf, wordsOfDisk } from "./panel.js";
 import { Player } from "./player.js";
+import { followPointer } from "./pointer.js";
 
 const NAMES = { energy: "energy", collision_frequency: "collisions", initial_height: "initial height", cluster: "cluster" };
 
 /** Clusters whose sizes are written beside them, and the least of those. */
 const [NAMED, LEAST_NAMED] = [5, 10];
 
+/** Pixels of a diameter from which bonds are drawn. */
+const BONDS_SEEN = 14;
+
+/** A key moves the view by so many pixels, and zooms by that factor. */
 const PAN = 60;
 const CLOSER = 1.25;
 
@@ -157,9 +162,11 @@ function clustersOf(frame) {
 function drawOver(frame) {
   const dots = window.devicePixelRatio;
   const context = painter.context;
+  const byClusters = chosen.colour === "cluster";
+  if (byClusters && camera.scale > BONDS_SEEN * dots) drawBonds(context, run, frame, camera, chosen.S_c);
   context.lineWidth = dots;
   drawEdges(context, camera);
-  if (chosen.colour === "cluster") drawNames(context, camera, largestOf(run, frame, clustersOf(frame), NAMED, LEAST_NAMED), dots);
+  if (byClusters) drawNames(context, camera, largestOf(run, frame, clustersOf(frame), NAMED, LEAST_NAMED), dots);
   drawScaleBar(context, camera, dots);
   const [wide, high] = camera.seen.map((side) => Number(side.toPrecision(3)));
   element("view").textContent = `view ${wide} d × ${high} d = ${camera.zoom === 1 ? "the whole box" : `box / ${figures(camera.zoom, 3)}`}`;
@@ -262,26 +269,8 @@ document.addEventListener("keydown", (event) => {
   act(shiftKey);
 });
 
-/** A pixel of the picture from an event. */
-const pixel = (event) => [event.offsetX, event.offsetY].map((value) => value * window.devicePixelRatio);
-
 function listen() {
-  const canvas = painter.canvas;
-  canvas.addEventListener("wheel", (event) => {
-    event.preventDefault();
-    zoom(Math.exp(-Math.sign(event.deltaY) * Math.min(Math.abs(event.deltaY), 100) * 0.0025), ...pixel(event));
-  });
-  canvas.addEventListener("dblclick", (event) => zoom(2, ...pixel(event)));
-  canvas.addEventListener("pointerdown", (event) => {
-    canvas.setPointerCapture(event.pointerId);
-    canvas.classList.add("moving");
-  });
-  canvas.addEventListener("pointerup", () => canvas.classList.remove("moving"));
-  canvas.addEventListener("pointermove", (event) => {
-    if (event.buttons) pan(event.movementX * window.devicePixelRatio, event.movementY * window.devicePixelRatio);
-    else point(...pixel(event), event);
-  });
-  canvas.addEventListener("pointerleave", () => (element("hover").hidden = true));
+  followPointer(painter.canvas, { zoom, pan, point, leave: () => (element("hover").hidden = true) });
   element("closer").addEventListener("click", () => zoom(CLOSER));
   element("farther").addEventListener("click", () => zoom(1 / CLOSER));
   element("fit").addEventListener("click", KEYS[0]);

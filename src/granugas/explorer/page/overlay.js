@@ -1,5 +1,8 @@
 // What is drawn over the disks: edges of the box, a bar of scale, names of the largest clusters.
 
+import { eachBond } from "./clusters.js";
+import { eachSeen } from "./painter.js";
+
 const INK = "#f4f6fa";
 
 /** The largest of 1, 2, 5, 10, 20 ... that is not above a length. */
@@ -17,6 +20,23 @@ export function drawEdges(context, camera) {
   for (const y of camera.rows(0, 0)) if (y > 1) line(context, 0, camera.height - y, camera.width, camera.height - y);
   context.stroke();
   context.setLineDash([]);
+}
+
+/** Lines between disks that are joined at S_c, where they are large enough to be seen. */
+export function drawBonds(context, run, frame, camera, S_c) {
+  const places = new Map();
+  eachSeen(run, frame, camera, (camera.scale / 2) * run.largest_diameter, (k, x, y) => places.set(k, [x, y]));
+  const longest = S_c * camera.scale * run.largest_diameter;
+  context.strokeStyle = "#000a";
+  context.lineWidth = camera.scale / 9;
+  context.beginPath();
+  eachBond(run, frame, S_c, (i, j) => {
+    const [from, to] = [places.get(i), places.get(j)];
+    if (!from || !to || Math.hypot(to[0] - from[0], to[1] - from[1]) > longest * 1.01) return;
+    context.moveTo(...from);
+    context.lineTo(...to);
+  });
+  context.stroke();
 }
 
 /** A bar of a round number of diameters, with its share of the box; `dots` are pixels of the screen's unit. */
