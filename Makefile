@@ -5,7 +5,7 @@ VENV := .venv/bin
 SNAKEMAKE := $(VENV)/snakemake --cores $(CORES)
 PYTEST := SLURM_CONF=/dev/null MPLBACKEND=Agg $(VENV)/python -m pytest -n $(CORES) --dist loadfile
 
-.PHONY: help figures preview report test test-full bench docs gallery prune lint lock clean
+.PHONY: help figures preview report test test-full test-pages bench docs gallery prune lint lock clean
 
 help:
 	@echo 'make figures    all figures at full size, into results/'
@@ -13,6 +13,7 @@ help:
 	@echo 'make report     all of it on one page to read and pass on, results/report.html'
 	@echo 'make test       all tests but the long ones'
 	@echo 'make test-full  all tests'
+	@echo 'make test-pages open the explorer in Chromium and datasets with ncdump (packages chromium and netcdf-bin)'
 	@echo 'make bench      speed of the engine, into results/bench.csv'
 	@echo 'make docs       the documentation, into docs/_build/html'
 	@echo 'make gallery    copy final figures and tables into results/gallery/'
@@ -35,7 +36,13 @@ test: .venv/.installed
 	$(PYTEST)
 
 test-full: .venv/.docs
-	$(PYTEST) -m ""
+	$(PYTEST) -m "not pages"
+
+test-pages: .venv/.pages
+	@missing=; for need in chromium:chromium ncdump:netcdf-bin; do \
+		command -v $${need%%:*} > /dev/null || missing="$$missing $${need##*:}"; done; \
+		test -z "$$missing" || { echo "Missing packages of the distribution: apt-get install$$missing"; exit 1; }
+	$(PYTEST) -m pages -n 0 tests/pages
 
 bench: .venv/.installed
 	$(VENV)/python benchmarks/speed.py
@@ -59,8 +66,9 @@ LOCK := .lock/bin/uv pip compile --quiet --universal --generate-hashes --no-emit
 lock:
 	@$(PYTHON) -m venv .lock
 	@.lock/bin/python -m pip install --quiet uv
-	$(LOCK) --extra workflow --extra test --extra develop -o requirements.lock
+	$(LOCK) --extra workflow --extra export --extra test --extra develop -o requirements.lock
 	$(LOCK) --extra docs -c requirements.lock -o requirements-docs.lock
+	$(LOCK) --group pages -c requirements.lock -o requirements-pages.lock
 	@rm -rf .lock
 
 clean:
@@ -78,4 +86,8 @@ clean:
 
 .venv/.docs: .venv/.installed requirements-docs.lock
 	@$(VENV)/python -m pip install --quiet --disable-pip-version-check --require-hashes --no-deps -r requirements-docs.lock
+	@touch $@
+
+.venv/.pages: .venv/.installed requirements-pages.lock
+	@$(VENV)/python -m pip install --quiet --disable-pip-version-check --require-hashes --no-deps -r requirements-pages.lock
 	@touch $@

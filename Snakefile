@@ -23,6 +23,7 @@ rule all:
         tables(),
         [f"{OUTPUT}/cost.csv"] if STUDIES.all_wanted else [],
         animations(),
+        explorer(),
         REMOVED,
 
 
@@ -42,5 +43,5 @@ onsuccess:
 
 
 onerror:
-    print(failures(planned(workflow.dag), STARTED, finals=["figure", "table", "claims", "pool", "check"]))
+    print(failures(planned(workflow.dag), STARTED, finals=["figure", "table", "claims", "explorer", "pool", "check"]))
     print(costs())

@@ -11,7 +11,10 @@ from typing import Any, NamedTuple
 
 from workflow.project import ROOT, copy_of_sources
 
-PAGES = [Path("README.md"), *sorted(path.relative_to(ROOT) for path in (ROOT / "docs").rglob("*.md") if "_build" not in path.parts)]
+PAGES = [
+    Path("README.md"),
+    *sorted(path.relative_to(ROOT) for path in (ROOT / "docs").rglob("*.md") if "_build" not in path.parts),
+]
 COPIED = ("Makefile", "README.md", "pyproject.toml", "requirements.lock", "requirements-docs.lock")
 """Besides the sources of the workflow."""
 
@@ -44,9 +47,7 @@ class Block(NamedTuple):
 def blocks_of(text: str) -> list[Block]:
     """The code blocks of a page; what Sphinx fills in (directives) is none."""
     return [
-        Block(
-            found["language"].split()[-1], found["text"], text.count("\n", 0, found.start("text")) + 1, found["mark"] or ""
-        )
+        Block(found["language"].split()[-1], found["text"], text.count("\n", 0, found.start("text")) + 1, found["mark"] or "")
         for found in _BLOCK.finditer(text)
     ]
 

@@ -19,6 +19,7 @@ def test_the_preview_builds_every_figure_and_keeps_to_physics(project: Project) 
     expected = {f"{name}.{kind}" for name in figures for kind in ("png", "pdf")}
     assert {path.name for path in preview.glob("figures/*")} >= expected
     assert {path.stem for path in preview.glob("*.csv")} == {*figures_in(ROOT / "workflow/tables"), "claims", "cost"}
+    assert 1e6 < (preview / "explorer.html").stat().st_size < 5e6
     claims = pd.read_csv(preview / "claims.csv")
     assert len(claims) >= 45 and set(claims["verdict"].str.split(" within").str[0]) <= {HOLDS, FAILS, SLIP, NOT_MEASURED}
     assert (claims["verdict"] != NOT_MEASURED).sum() >= 30

@@ -10,6 +10,7 @@ from granugas import digest, studies
 from granugas.configuration import ConfigError, refuse_duplicate_keys
 from granugas.cost import entries, renew_table, summary
 from granugas.dynamics.events.effects import modules_of
+from granugas.explored import explored
 from granugas.jobs import Job, claim, damaged, date_now, failures, pass_on_termination, tell_progress, warm_up
 from granugas.report import entry_of
 
@@ -37,6 +38,7 @@ STYLE = [digest.SOURCES / name for name in ("plotting.py", "snapshots.py", "gran
 ANALYSIS = digest.digest(digest.ANALYSIS)
 FORMULAS = digest.digest(["granugas.analysis.*"])
 STORAGE = digest.digest(["granugas.storage.*"])
+EXPLORED = explored(STUDIES)
 
 if STUDIES.left_out and workflow.is_main_process:
     for name, missing in STUDIES.left_out.items():
@@ -89,6 +91,11 @@ def figures(with_costs):
 def animations():
     """The animations that the configuration asks for: with all figures, all animations."""
     return [f"{OUTPUT}/figures/{name}.mp4" for name in STUDIES.animations] if STUDIES.all_wanted else []
+
+
+def explorer():
+    """The explorer: with all figures, if there is a run that it can show."""
+    return [f"{OUTPUT}/explorer.html"] if STUDIES.all_wanted and EXPLORED else []
 
 
 def costs():

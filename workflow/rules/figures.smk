@@ -46,6 +46,25 @@ rule animate:
         "../scripts/animate.py"
 
 
+# Runs whose positions are kept, as a page to explore.
+rule explorer:
+    input:
+        positions=[f"{OUTPUT}/positions/{shown.run.address}.nc" for shown in EXPLORED],
+        runs=[f"{OUTPUT}/runs/{shown.run.address}.nc" for shown in EXPLORED],
+        clusters=[f"{OUTPUT}/clusters/{shown.clusters}.nc" for shown in EXPLORED if shown.clusters],
+        page=sorted((digest.SOURCES / "explorer/page").iterdir()),
+    output:
+        f"{OUTPUT}/explorer.html",
+    log:
+        f"{OUTPUT}/logs/explorer.log",
+    params:
+        labels=[shown.label for shown in EXPLORED],
+        clusters=[shown.clusters and f"{OUTPUT}/clusters/{shown.clusters}.nc" for shown in EXPLORED],
+        drawing=digest.digest(["granugas.explorer.*", "granugas.snapshots", *digest.ANALYSIS]),
+    script:
+        "../scripts/explorer.py"
+
+
 # Tables, each from a file of workflow/tables.
 for name, needed in TABLES.items():
 

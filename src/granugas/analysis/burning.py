@@ -31,9 +31,9 @@ def label_clusters(positions, radii, origin, lengths, periodic, cells, factors):
         labels (k, n), numbered in the order of first particles; sizes (k, n), the first counts[c] of a row are used;
         counts (k,), the I_c.
     """
-    rank, start, disks = _sort_into_cells(positions, radii, origin, lengths, periodic, cells)
+    rank, start, disks = sort_into_cells(positions, radii, origin, lengths, periodic, cells)
     parent = np.arange(len(disks)).astype(np.int32)
-    bonds, last_bond = _join_neighbours(parent, disks, start, lengths, periodic, cells, factors * factors)
+    bonds, last_bond = join_neighbours(parent, disks, start, lengths, periodic, cells, factors * factors)
     labels = np.empty((len(factors), len(disks)), np.int32)
     sizes = np.zeros((len(factors), len(disks)), np.int32)
     counts = np.zeros(len(factors), np.int64)
@@ -47,7 +47,7 @@ def label_clusters(positions, radii, origin, lengths, periodic, cells, factors):
 
 
 @njit(cache=True)
-def _sort_into_cells(positions, radii, origin, lengths, periodic, cells):
+def sort_into_cells(positions, radii, origin, lengths, periodic, cells):
     """Counting sort: place of each particle, first place of each cell, and rows (x, y, z, radius) in cell order."""
     n, dim = positions.shape
     home = np.empty(n, np.int32)
@@ -80,7 +80,7 @@ def _sort_into_cells(positions, radii, origin, lengths, periodic, cells):
 
 
 @njit(cache=True)
-def _join_neighbours(parent, disks, start, lengths, periodic, cells, squared_factors):
+def join_neighbours(parent, disks, start, lengths, periodic, cells, squared_factors):
     """Unite what touches at the smallest factor; keep the bonds of the larger ones as linked lists, one a factor.
 
     Row b of the bonds is (i, j, next bond of the same factor or -1), last_bond[c] the head of the list of factor c.

@@ -111,7 +111,7 @@ def clusters_of_run(run: xr.Dataset, distance_factors: Sequence[float] = PAPER_F
     if frames.ndim != 3 or time not in ("time", "snapshot"):
         raise ValueError(f"{name} has the dimensions {frames.dims}: select one run of them first")
     diameter = run["particle_diameter"].values if "particle_diameter" in run else run.attrs["diameter"]
-    box = _periodic_box(run.attrs, frames.axis.values)
+    box = periodic_box(run.attrs, frames.axis.values)
     arrays = (frames.isel({time: index}).values for index in range(frames.sizes[time]))
     found = clusters_of_frames(arrays, box, diameter, distance_factors).rename(time=time)
     coordinates = {key: value for key, value in frames.coords.items() if set(value.dims) <= {time}}
@@ -198,13 +198,13 @@ def _find(
         raise ValueError("positions: some are not finite")
     origin = np.where(periodic, 0.0, low)
     lengths = np.where(periodic, sides, np.maximum(high - low, diameters.max()))
-    cells = _cells(lengths, factors[-1] * diameters.max(), n)
+    cells = cells_for(lengths, factors[-1] * diameters.max(), n)
     radii = np.ascontiguousarray(np.broadcast_to(diameters / 2, n))
     labels, sizes, counts = label_clusters(positions, radii, origin, lengths, periodic, cells, factors)
     return Clusters(factors, labels, tuple(row[:count] for row, count in zip(sizes, counts, strict=True)))
 
 
-def _cells(lengths: NDArray[np.float64], reach: float, n: int) -> NDArray[np.int64]:
+def cells_for(lengths: NDArray[np.float64], reach: float, n: int) -> NDArray[np.int64]:
     """Cells that a bond cannot jump over, not many more of them than particles."""
     most = 4 * n + 64
     cells = np.minimum(lengths / (reach * (1 + 1e-9)), most).astype(np.int64).clip(min=1)
@@ -220,7 +220,7 @@ def _positions(positions: ArrayLike) -> NDArray[np.float64]:
     return array
 
 
-def _periodic_box(run: Mapping[str, Any], axes: Sequence[str]) -> list[float]:
+def periodic_box(run: Mapping[str, Any], axes: Sequence[str]) -> list[float]:
     """The sides of the box of a run, with its attributes; infinite between walls, across which nothing is near."""
     words = str(run.get("boundary", "periodic")).split()
     edges = words * len(axes) if len(words) == 1 else words

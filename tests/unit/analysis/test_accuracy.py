@@ -85,7 +85,9 @@ def test_the_limit_of_large_systems_is_that_of_a_line_in_1_over_n():
     assert float(in_large_systems(measured[::-1], error[::-1], "setting")["truth"]) == pytest.approx(float(found["truth"]))
     rng = np.random.default_rng(1)
     drawn = measured + xr.DataArray(rng.normal(0, 1e-3, (4000, 4)), dims=("draw", "setting"))
-    assert float(in_large_systems(drawn, error, "setting")["truth"].std()) == pytest.approx(float(found["truth_error"]), rel=0.05)
+    assert float(in_large_systems(drawn, error, "setting")["truth"].std()) == pytest.approx(
+        float(found["truth_error"]), rel=0.05
+    )
 
 
 def test_one_size_has_no_limit():

@@ -22,7 +22,10 @@ def bed(make_run):
         velocity=run["position"].copy(data=rng.normal(size=(2, 40, 2))),
         particle_diameter=("particle", rng.choice([1e-3, 2e-3], 40)),
         particle_mass=("particle", rng.random(40)),
-        collision_frequency=(("snapshot", "particle"), np.where(np.arange(80).reshape(2, 40) == 7, np.nan, rng.random((2, 40)))),
+        collision_frequency=(
+            ("snapshot", "particle"),
+            np.where(np.arange(80).reshape(2, 40) == 7, np.nan, rng.random((2, 40))),
+        ),
     )
 
 

@@ -37,7 +37,9 @@ def files(tmp_path_factory):
     kept = [part.drop_vars([name for name in part if name.startswith("trajectory")]) for part in parts]
     write(pool(kept, ["restitution", "lattice"]), folder / "study.nc")
     scene = gg.Scene(n_particles=36, area_fraction=0.25, restitution=0.8)
-    counted = [gg.simulate(scene, {"collisions_per_particle": 5}, realization=k, keep_positions=False, **options) for k in (0, 1)]
+    counted = [
+        gg.simulate(scene, {"collisions_per_particle": 5}, realization=k, keep_positions=False, **options) for k in (0, 1)
+    ]
     write(pool([run.assign(realization=k) for k, run in enumerate(counted)], ["restitution"]), folder / "counted.nc")
     return folder
 
