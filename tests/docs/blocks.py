@@ -22,7 +22,8 @@ DRY = {"make ": "make --dry-run ", "snakemake ": "snakemake --dry-run "}
 """What a dry run makes of commands."""
 
 _BLOCK = re.compile(
-    r"^(?:<!-- (?P<mark>dry run|only shown): (?P<reason>\S[^\n]*) -->\n)?```(?P<language>\w+|\{code-cell\} python)\n(?P<text>.*?)^```$",
+    r"^(?:<!-- (?P<mark>dry run|only shown): (?P<reason>\S[^\n]*) -->\n)?"
+    r"```(?P<language>\w+|\{code-cell\} python)\n(?P<text>.*?)^```$",
     re.M | re.S,
 )
 _FILE = re.compile(r"(?:#|\.\.) (\S+\.\w+)\n")

@@ -22,7 +22,7 @@ TEXTS = ("axis", "lattice")
 
 @pytest.fixture(scope="module")
 def files(tmp_path_factory):
-    """A run, its positions, a study that ends by time with clusters, snapshots and words in its grid, one that ends by collisions."""
+    """A run, its positions, a study by time with clusters, snapshots and words in its grid, one that ends by collisions."""
     folder = tmp_path_factory.mktemp("files")
     options = {"samples": {"count": 5}, "progress": False}
     runs = []
