@@ -11,6 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator
 
+from granugas.analysis.accuracy import bias
 from granugas.plotting import MARKERS, PAGE, mark_panels, power_of_ten
 
 GOALS = {0.1: "10 %", 0.01: "1 %", 0.001: "0.1 %"}
@@ -166,6 +167,28 @@ def exponents(data: xr.Dataset, most: float) -> list[Curve]:
         "fit window": np.full_like(runs, float(at_factor.std("window_shift"))),
     }
     return [Curve(label, runs * cost, error / exponent, np.zeros_like(error)) for label, error in over.items()]
+
+
+def methods(events: xr.Dataset, others: Mapping[str, xr.Dataset]) -> list[Curve]:
+    """K of other methods at the end, against that of the event-driven runs from the same start states.
+
+    Args:
+        events: the study that has the truth.
+        others: studies by the words of their curves; the knob of soft spheres is the number of steps in a contact.
+    """
+    last, curves = events["time"].values[-1], []
+    truths = events["kinetic_energy"].sel(time=last).squeeze(drop=True)
+    for label, study in others.items():
+        seen = study[["kinetic_energy", "cpu_time"]].sel(time=last).squeeze(drop=True)
+        both = sorted({*seen["realization"].values} & {*truths["realization"].values})
+        found = bias(seen["kinetic_energy"].sel(realization=both), truths.sel(realization=both))
+        cost, error, uncertainty = (
+            np.atleast_1d(values)
+            for values in (seen["cpu_time"].median("realization"), found["relative_error"], found["relative_error_error"])
+        )
+        names = [f"{steps}" for steps in np.atleast_1d(seen["steps_per_contact"])] if "steps_per_contact" in seen.dims else []
+        curves.append(Curve(label, cost, error, uncertainty, names))
+    return curves
 
 
 def accuracy_figure(panels: Mapping[str, Sequence[Curve]], seconds: tuple[float, float], error: tuple[float, float]) -> Figure:

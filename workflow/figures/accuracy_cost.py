@@ -10,13 +10,16 @@ from granugas.plotting_accuracy import (
     contact_time,
     equilibration,
     exponents,
+    methods,
     realizations,
     sampling,
     sizes,
 )
 
-STUDIES = ()
+SECTION = "Accuracy"
+STUDIES = ("methods_events", "methods_soft_spheres", "methods_dsmc")
 EXPERIMENTS = ("accuracy_contact_time", "accuracy_sizes", "accuracy_sampling", "accuracy_equilibration", "accuracy_arithmetic")
+METHODS = {"soft_spheres": "soft spheres, steps in $t_c$", "dsmc": "DSMC"}
 SECONDS, ERROR = (5e-4, 2e2), (1e-4, 20.0)
 """The axes of all panels."""
 
@@ -29,6 +32,7 @@ def draw(data: dict[str, xr.Dataset]) -> Figure:
         "sampling": sampling(data["accuracy_sampling"]),
         "collisions of a particle before the start": equilibration(data["accuracy_equilibration"]),
         "arithmetic": arithmetic(data["accuracy_arithmetic"]),
+        "method, $K$": methods(data["methods_events"], {words: data[f"methods_{name}"] for name, words in METHODS.items()}),
         "number of disks $N$": sizes(data["accuracy_sizes"]),
         "realizations, $K$": realizations(data["accuracy_sizes"], SECONDS[1]),
         r"exponent of $\langle M \rangle$": exponents(data["accuracy_sizes"], SECONDS[1]),

@@ -7,6 +7,7 @@ from matplotlib.figure import Figure
 
 from granugas.plotting import PAGE, styled
 
+SECTION = "Cost"
 STUDIES = ()
 TABLES = ("cost",)
 OF_STUDIES = {"equilibrate": "start states", "simulate": "runs", "clusters": "clusters", "pool": "pooling"}

@@ -8,6 +8,7 @@ from matplotlib.lines import Line2D
 
 from granugas.plotting import MARKERS, PAGE, mark_panels, shades, styled
 
+SECTION = "Accuracy"
 STUDIES = ()
 EXPERIMENTS = ("soft",)
 RESTITUTION, SHOWN, SIZES = 0.8, (0.03, 0.3, 1.0, 3.0, 30.0), (2, 5, 10, 20)

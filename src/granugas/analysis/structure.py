@@ -79,6 +79,26 @@ def mean_wavelength(k: Numbers, strength: Numbers, shortest: float) -> float:
     return float(2 * np.pi * strength[kept].sum() / (k * strength)[kept].sum())
 
 
+def pair_correlation(positions: ArrayLike, box: ArrayLike, edges: ArrayLike) -> Numbers:
+    """g(r): pairs at a distance, by how many there are among points without any order, in two dimensions.
+
+    Args:
+        positions: (n, 2) in the periodic box.
+        box: (2,) its sides.
+        edges: (m + 1,) ascending, of bins of the distance, at most half a side.
+
+    Returns:
+        (m,), for each bin; all pairs are looked at, so n should be some thousand at most.
+    """
+    place, sides, edges = np.asarray(positions, float), np.asarray(box, float), np.asarray(edges, float)
+    n, counts = len(place), np.zeros(len(edges) - 1)
+    for k in range(n - 1):
+        apart = place[k + 1 :] - place[k]
+        apart -= sides * np.round(apart / sides)
+        counts += np.histogram(np.hypot(*apart.T), edges)[0]
+    return counts / (n * (n - 1) / 2 * np.pi * np.diff(edges**2) / sides.prod())
+
+
 def cells_of(positions: ArrayLike, box: ArrayLike, parts: int) -> NDArray[np.int64]:
     """(n, 2) column and row of the cell of each particle, periodic images included."""
     return np.floor(np.asarray(positions) / np.asarray(box) * parts).astype(int) % parts

@@ -8,6 +8,7 @@ from granugas.analysis.structure import (
     density_field,
     density_variance,
     mean_wavelength,
+    pair_correlation,
     strongest_wavelength,
     structure_factor,
     structure_length,
@@ -99,3 +100,13 @@ def test_the_length_of_the_structure_factor_follows_a_wave():
     lengths = [mean_wavelength(*structure_factor(wave(periods, 0, 200_000), BOX, 128), 0.2) for periods in (6, 4, 2, 1)]
     assert np.all(np.diff(lengths) > 0)
     assert lengths[1] == pytest.approx(0.5, rel=0.1)
+
+
+def test_pairs_of_points_without_order_and_of_a_lattice():
+    rng, box = np.random.default_rng(1), (3.0, 2.0)
+    found = np.mean([pair_correlation(rng.random((300, 2)) * box, box, [0.0, 0.2, 0.5, 1.0]) for _ in range(40)], axis=0)
+    np.testing.assert_allclose(found, 1, atol=0.02)
+    square = np.stack(np.meshgrid(np.arange(8), np.arange(8)), axis=-1).reshape(-1, 2) + 0.5
+    near = pair_correlation(square, (8.0, 8.0), [0.0, 0.9, 1.1, 1.3, 1.5])
+    expected = 4 * 64 / (63 * np.pi * np.diff(np.square([0.0, 0.9, 1.1, 1.3, 1.5])))
+    np.testing.assert_allclose(near, [0, expected[1], 0, expected[3]])
