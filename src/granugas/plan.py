@@ -13,6 +13,7 @@ from pathlib import Path
 import netCDF4
 
 from granugas.calibration import Calibration
+from granugas.dynamics.soft_contact import step_of
 from granugas.expected import End, bias, end_of, rate_of, scatter
 from granugas.resources import memory_of
 from granugas.runs import Run
@@ -42,8 +43,8 @@ EFFECTS = (
 KICKS, KICK, KICK_EACH = 10.0, 3.6e-4, 1.1e-7
 """Random kicks in each mean free time of a heated gas; s of one, and for each particle."""
 
-OTHER_DYNAMICS = {"soft_spheres": 20.0, "dsmc": 60.0}
-"""ns of a particle-step, and of a collision."""
+OTHER_DYNAMICS = {"soft_spheres": 5.0, "dsmc": 60.0}
+"""ns of a particle-step (3 to 15, the more the longer t_c is), and of a collision."""
 
 EQUILIBRATION_ROUNDS = 1.05
 """Rounds of `equilibration` that a start state takes, on average."""
@@ -120,8 +121,7 @@ def motion_seconds(scene: Scene, end: End, machine: Calibration) -> float:
     """
     collisions = end.collisions * scene.n_particles / 2
     if scene.dynamics == "soft_spheres":
-        step = max(scene.contact_times) / scene.as_dict().get("steps_per_contact", 50)
-        steps = scene.n_particles * end.tau / rate_of(scene) / step
+        steps = scene.n_particles * end.tau / rate_of(scene) / step_of(scene)
         return steps * OTHER_DYNAMICS["soft_spheres"] * 1e-9 * machine.slowness
     if scene.dynamics == "dsmc":
         return collisions * OTHER_DYNAMICS["dsmc"] * 1e-9 * machine.slowness

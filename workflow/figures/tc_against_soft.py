@@ -35,8 +35,8 @@ def against_number(axes: Axes, left: xr.DataArray, plain: xr.DataArray) -> None:
     axes.set(xlabel="$N$", xlim=(0, left["n_particles"].max() + 1))
     shown = [interval for interval in SHOWN if interval in left["impact_interval"]]
     for interval, colour, marker in zip(shown, shades(len(shown)), MARKERS, strict=False):
-        look = {"color": colour, "marker": marker, "markerfacecolor": "none", "linewidth": 0.8, "label": f"{interval:g}"}
-        axes.plot(left["n_particles"], left.sel(impact_interval=interval), **look)
+        look = {"color": colour, "marker": marker, "markerfacecolor": "none", "linewidth": 0.8}
+        axes.plot(left["n_particles"], left.sel(impact_interval=interval), **look, label=f"{interval:g}")
     ends = plain.isel(impact_interval=-1).dropna("n_particles")
     axes.plot(ends["n_particles"], ends, "k--", linewidth=0.9, label="IHS")
     if ends.sizes["n_particles"] < plain.sizes["n_particles"]:
@@ -47,8 +47,7 @@ def against_interval(axes: Axes, left: xr.DataArray) -> None:
     """Lines: soft beads; points: TC; dashes on the right: IHS, at no interval in particular."""
     longest = float(left["impact_interval"].max())
     axes.set(xscale="log", xlabel="$s/(v t_c)$", xlim=(left["impact_interval"].min() / 1.5, 5 * longest))
-    sizes = [n for n in SIZES if n in left["n_particles"]]
-    handles = []
+    sizes, handles = [n for n in SIZES if n in left["n_particles"]], []
     for n, colour, marker in zip(sizes, shades(len(sizes)), MARKERS, strict=False):
         soft, hard, plain = (left.sel(n_particles=n, model=model) for model in ("soft", "TC", "IHS"))
         axes.plot(soft["impact_interval"], soft, color=colour)
