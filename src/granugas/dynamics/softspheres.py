@@ -107,8 +107,9 @@ class SoftSpheres:
         some = int(gas.sums.step) + max(1, most_events * STEPS_PER_EVENT // gas.n)
         enough = self.collisions + most_collisions
         while (why := run(gas, min(last, some), enough)) == LIST:
-            listed(self._gas, self._list_pairs())
+            count = self._list_pairs()  # which may give the gas another table
             gas = self._gas
+            listed(gas, count)
         there = why != ENOUGH and gas.sums.step >= last
         self._looked["time"] = max(self.time, until if there and until < math.inf else self._grid_time)
         return TIME if there else COLLISIONS if why == ENOUGH else EVENTS

@@ -8,7 +8,7 @@ import pytest
 from gases import lattice_gas
 
 from granugas.checks import findings
-from granugas.dynamics import engine_of
+from granugas.dynamics import engine_of, softspheres
 from granugas.dynamics.events.loop import COLLISIONS, EVENTS, TIME
 from granugas.dynamics.neighbours import grid_of
 from granugas.dynamics.soft_contact import spring, step_of
@@ -269,3 +269,22 @@ def test_a_job_of_the_workflow_has_nothing_to_find():
     assert np.all(data["events"] > 100) and np.all(data["elastic_energy"] >= 0)
     assert not data["reduced_pressure"].isel(time=slice(1, None)).isnull().any()
     assert findings(data.drop_vars("elastic_energy")) != []
+
+
+def test_a_list_that_grows_on_the_way_has_room(monkeypatch):
+    """A cloud that falls together: pairs are more than the first table holds, and nothing is written into an old one."""
+    scene = Scene(64, 0.02, restitution=0.4, **SOFT)
+    side = math.sqrt(scene.volume)
+    place = (np.stack(np.meshgrid(np.arange(8), np.arange(8)), axis=-1).reshape(-1, 2) + 0.5) * side / 8
+    engine = SoftSpheres(scene, at_rest(place, (side / 2 - place) * 50.0, (side, side)))
+    rows, seen = len(engine._rows["pairs"]), []
+    original = softspheres.listed
+
+    def listed(gas, count):
+        seen.append((count, gas.pairs.rows is engine._rows["pairs"]))
+        original(gas, count)
+
+    monkeypatch.setattr(softspheres, "listed", listed)
+    engine.advance(0.03)
+    assert max(count for count, _ in seen) > rows
+    assert all(same for _, same in seen)
