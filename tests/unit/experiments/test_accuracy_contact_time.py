@@ -41,6 +41,8 @@ def test_all_begin_alike(monkeypatch):
     found = experiment.measure(plan).squeeze("case")
     alike = found["measured"].sel(observable=["K at 1e-06 s", "<M> at 2e-06 s"])
     assert (alike == alike.isel(setting=0)).all() and (found["measured_error"].sel(observable="<M> at 1e-06 s") > 0).all()
+    long = found.sel(observable="n_e at 1e-06 s", setting=1e-4)
+    assert long["measured"] > 0.01 and long["truth"] == 0 and np.isnan(long["relative_error"])  # whatever the line says
 
 
 def test_the_cost_is_that_of_a_run(measured):
