@@ -10,7 +10,7 @@ import pytest
 from extxyz import read_dicts
 
 import granugas as gg
-from granugas.storage.dataset import pool, write
+from granugas.storage.dataset import pool, with_errors, write
 
 PAGE = (Path(__file__).parents[2] / "docs/analyses.md").read_text(encoding="utf-8")
 LINES = [re.sub(r"^ +", "", block) for block in re.findall(r"```python\n(.*?)```", PAGE, re.S)]
@@ -29,7 +29,7 @@ def namespace(tmp_path_factory):
         run = gg.simulate(scene, until=50.0, seed=1, realization=k, **options).assign(realization=k)
         run = run.merge(gg.find_clusters(run, distance_factors=[1.05, 1.1]), combine_attrs="override")
         parts.append(run.drop_vars("trajectory"))
-    write(pool(parts, KEYS), folder / "results/studies/cluster1999_large.nc")
+    write(with_errors(pool(parts, KEYS)), folder / "results/studies/cluster1999_large.nc")
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(folder)
         known = {}

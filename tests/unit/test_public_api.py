@@ -8,7 +8,7 @@ import pytest
 
 import granugas as gg
 from granugas.storage.damage import DamagedFile
-from granugas.storage.dataset import pool, write
+from granugas.storage.dataset import pool, with_errors, write
 
 
 def test_the_doors_are_functions_whoever_imported_what_before():
@@ -33,12 +33,14 @@ def test_a_study_is_found_by_name_and_by_path(tmp_path):
     options = {"samples": {"count": 3}, "keep_positions": False, "progress": False}
     runs = [gg.simulate(scene, until=0.05, realization=k, **options).assign(realization=k) for k in (0, 1)]
     path = tmp_path / "results/studies/mine.nc"
-    write(pool(runs, ["restitution"]), path)
+    write(with_errors(pool(runs, ["restitution"])), path)
     study = gg.load_study("mine", output=tmp_path / "results")
     assert study.identical(gg.load_study(path)) and study.identical(gg.load_study(str(path)))
     assert study["kinetic_energy"].dims == ("restitution", "realization", "time")
     assert all(study[name].attrs["long_name"] for name in study.variables)
     np.testing.assert_array_equal(study["kinetic_energy"][0, 1], runs[1]["kinetic_energy"])
+    error = abs(runs[0]["kinetic_energy"] - runs[1]["kinetic_energy"]).values / 2
+    np.testing.assert_allclose(study["kinetic_energy_error"][0], error)
     with open(path, "rb+") as file:
         file.seek(-1000, 2)
         file.write(b"\x00\x01\x02")

@@ -58,11 +58,11 @@ def test_the_report_holds_what_was_built(project: Project, monkeypatch: pytest.M
     assert not re.search(r"""<(script|link|img|iframe)[^>]+(src|href)=["']?(https?:)?//""", page)
 
 
-def test_with_all_figures_all_tables_and_the_claims_are_pages(project: Project) -> None:
+def test_with_all_figures_all_tables_claims_and_costs_are_pages(project: Project) -> None:
     project.configure(studies={"mine": STUDY})
     jobs = project.jobs("--", "pages")
     tables = [name for name, needed in figures_in(ROOT / "workflow/tables").items() if not needed]
-    assert jobs["page"] == len(tables) + 1 and jobs["claims"] == 1 and jobs["configuration"] == 1
+    assert jobs["page"] == len(tables) + 2 and jobs["claims"] == jobs["cost"] == 1 and jobs["configuration"] == 1
 
 
 def variable(page: str, name: str) -> dict:

@@ -1,5 +1,6 @@
 # Pages that only the report has: tables to sort and search, the configuration and the versions. `make report` asks for them.
 PAGES = {name: placed(f"workflow/tables/{name}.py", f"{name}.csv") for name in TABLES}
+PAGES["cost"] = {"category": "Cost", "labels": labelled("cost.csv", "What every job took")}
 if CLAIMS:
     PAGES["claims"] = {"category": "Claims", "labels": labelled("claims.csv", "What the papers claim, and whether it holds")}
 

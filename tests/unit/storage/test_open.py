@@ -10,7 +10,7 @@ import xarray as xr
 from compliance_checker.runner import CheckSuite
 
 import granugas as gg
-from granugas.storage.dataset import pool, write, write_positions
+from granugas.storage.dataset import pool, with_errors, write, write_positions
 from granugas.storage.files import encoding
 
 ACCEPTED = {"Coordinate variable 'time' should have standard_name='time', found: 'None'"}
@@ -42,7 +42,7 @@ def files(tmp_path_factory):
     write_positions(runs[0], folder / "positions.nc")
     parts = [run.merge(gg.find_clusters(run, distance_factors=[1.1, 1.4]), combine_attrs="override") for run in runs]
     kept = [part.drop_vars([name for name in part if name.startswith("trajectory")]) for part in parts]
-    write(pool(kept, ["restitution", "lattice"]), folder / "study.nc")
+    write(with_errors(pool(kept, ["restitution", "lattice"])), folder / "study.nc")
     scene = gg.Scene(n_particles=36, area_fraction=0.25, restitution=0.8)
     until, options["keep_positions"] = {"collisions_per_particle": 5}, False
     counted = [gg.simulate(scene, until, realization=k, **options).assign(realization=k) for k in (0, 1)]
