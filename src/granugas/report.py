@@ -18,7 +18,7 @@ SECTIONS = ("Papers", "Accuracy", "Hard cases", "Effects", "Cost", "Studies", "C
 PAPERS = {"tc1998": "A: Luding and McNamara 1998", "cluster1999": "B: Luding and Herrmann 1999"}
 """By the first word of the names of the figures and tables that belong to a paper."""
 
-WIDTH = 64
+WIDTH = 56
 """Letters of what is said about an entry: the menu leaves the rest of the window to the figure."""
 
 PAGE = """<!DOCTYPE html>

@@ -45,8 +45,8 @@ def page(browser):
 def test_a_figure_is_found_in_its_section_and_shown_with_its_caption(report, page):
     page.goto(report.as_uri())
     for section in ("Papers", "Studies", "Configuration"):
-        assert page.get_by_text(section, exact=True).first.is_visible()
-    open_part(page, "Papers", "A: Luding and McNamara 1998")
+        page.get_by_text(section, exact=True).first.wait_for()
+    page.get_by_text("Papers", exact=True).first.click()
     row = page.locator("nav tbody tr").filter(has_text="tc1998_fig01")
     assert "Fig. 1: two soft and two hard particles" in row.inner_text()
     row.locator("a").nth(0).click()
@@ -60,7 +60,7 @@ def test_a_figure_is_found_in_its_section_and_shown_with_its_caption(report, pag
 
 def test_a_table_is_sorted_by_its_heads_inside_the_report(report, page):
     page.goto(report.as_uri())
-    open_part(page, "Papers", "A: Luding and McNamara 1998")
+    page.get_by_text("Papers", exact=True).first.click()
     page.locator("nav tbody tr").filter(has_text="tc1998_table1.csv").locator("a").nth(0).click()
     page.locator("iframe").wait_for()
     table = page.frame_locator("iframe")
@@ -87,8 +87,3 @@ def test_claims_are_sorted_as_numbers_and_searched(page, tmp_path):
     page.fill("input", "cluster1999_fig7 holds")
     shown = page.locator("tbody tr:visible").all_inner_texts()
     assert 0 < len(shown) < len(claims) and all("cluster1999_fig7" in text for text in shown)
-
-
-def open_part(page, section, part):
-    page.get_by_text(section, exact=True).first.click()
-    page.get_by_text(part, exact=True).first.click()

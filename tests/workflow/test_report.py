@@ -39,7 +39,7 @@ def test_the_report_holds_what_was_built(project: Project, monkeypatch: pytest.M
         path = f"results/figures/{name}.png"
         assert path in categories[section][part]
         shown = results[path]
-        assert shown["labels"]["name"] == name and shown["labels"]["shows"].startswith(about)
+        assert shown["labels"]["shows"].startswith(f"{name}: {about}")
         assert content_of(shown) == (project.folder / path).read_bytes()
         assert len(shown["caption"]) > 300
     assert "<math" in results["results/figures/cluster1999_fig1.png"]["caption"]
@@ -47,21 +47,22 @@ def test_the_report_holds_what_was_built(project: Project, monkeypatch: pytest.M
 
     table = results["results/report/tc1998_table1.html"]
     assert "results/report/tc1998_table1.html" in categories["Papers"]["A: Luding and McNamara 1998"]
-    assert table["labels"]["name"] == "tc1998_table1.csv" and "results/tc1998_table1.csv" in table["caption"]
+    assert table["labels"]["shows"].startswith("tc1998_table1.csv: Table 1") and "results/tc1998_table1.csv" in table["caption"]
     rows = (project.folder / "results/tc1998_table1.csv").read_text().splitlines()
     assert content_of(table).decode().count("<tr") == len(rows)
     configuration = content_of(results["results/report/configuration.html"]).decode()
     assert "cluster1999_restitutions:" in configuration and "snakemake" in configuration
     assert categories["Configuration"] == {"Other": ["results/report/configuration.html"]}
     assert len(results) == len(FIGURES) + 2
+    assert all(len(result["labels"]) == 1 for result in results.values())  # two would break a section of two entries
     assert not re.search(r"""<(script|link|img|iframe)[^>]+(src|href)=["']?(https?:)?//""", page)
 
 
-def test_with_all_figures_all_tables_and_the_claims_are_pages(project: Project) -> None:
+def test_with_all_figures_all_tables_claims_and_costs_are_pages(project: Project) -> None:
     project.configure(studies={"mine": STUDY})
     jobs = project.jobs("--", "pages")
     tables = [name for name, needed in figures_in(ROOT / "workflow/tables").items() if not needed]
-    assert jobs["page"] == len(tables) + 1 and jobs["claims"] == 1 and jobs["configuration"] == 1
+    assert jobs["page"] == len(tables) + 2 and jobs["claims"] == jobs["cost"] == 1 and jobs["configuration"] == 1
 
 
 def variable(page: str, name: str) -> dict:

@@ -54,8 +54,7 @@ def show_places(axes: Axes, models: xr.Dataset) -> None:
 def matrix(axes: Axes, shade: np.ndarray, texts: list[list[str]], columns: list[str], rows: list[str]) -> None:
     """Texts on shaded fields."""
     axes.imshow(shade, cmap="Blues", vmin=0, vmax=1, aspect="auto")
-    axes.set_xticks(range(len(columns)), columns)
-    axes.set_yticks(range(len(rows)), rows)
+    axes.set(xticks=range(len(columns)), xticklabels=columns, yticks=range(len(rows)), yticklabels=rows)
     axes.tick_params(which="both", length=0, labelsize="x-small")
     for row, column in np.ndindex(shade.shape):
         axes.text(column, row, texts[row][column], ha="center", va="center", fontsize="x-small")

@@ -14,8 +14,7 @@ EXPERIMENTS = ("approach",)
 WITHIN = (100, 200, 500)
 """Collisions per particle within which a run has to collapse; (a) is for the middle one."""
 
-CONTACT_TIME = 1e-5
-"""Of the papers, in s: where the TC model ends the divergence."""
+CONTACT_TIME = 1e-5  # of the papers, in s: where the TC model ends the divergence
 
 
 @styled

@@ -51,10 +51,9 @@ def against_interval(axes: Axes, left: xr.DataArray) -> None:
     for n, colour, marker in zip(sizes, shades(len(sizes)), MARKERS, strict=False):
         soft, hard, plain = (left.sel(n_particles=n, model=model) for model in ("soft", "TC", "IHS"))
         axes.plot(soft["impact_interval"], soft, color=colour)
-        axes.plot(
-            hard["impact_interval"], hard, color=colour, linestyle=":", linewidth=0.7, marker=marker, markerfacecolor="none"
-        )
+        look = {"color": colour, "marker": marker, "markerfacecolor": "none"}
+        axes.plot(hard["impact_interval"], hard, linestyle=":", linewidth=0.7, **look)
         axes.plot([1.8 * longest, 4 * longest], [plain[-1]] * 2, color=colour, linestyle=(0, (2, 1)))
-        handles.append(Line2D([], [], color=colour, marker=marker, markerfacecolor="none", label=f"${n}$"))
+        handles.append(Line2D([], [], label=f"${n}$", **look))
     axes.text(2.7 * longest, 0.67, "IHS", ha="center", fontsize="small")
     axes.legend(handles=handles, title="$N$; lines: soft,\npoints: TC", loc="lower left")

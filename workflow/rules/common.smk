@@ -72,9 +72,14 @@ def datasets(names, experiments):
 
 
 def placed(file, name):
-    """Section, part and labels in the report of a figure or table with this name, as its file says."""
+    """Section, part and label in the report of a figure or table with this name, as its file says."""
     section, part, about = entry_of(HERE / file)
-    return {"category": section, "subcategory": part, "labels": {"name": name, "shows": about}}
+    return {"category": section, "subcategory": part, "labels": labelled(name, about)}
+
+
+def labelled(name, about):
+    """The label of an entry: one, as in a section of two entries a second label would be taken for a switch between them."""
+    return {"shows": f"{name}: {about}"}
 
 
 def tables():

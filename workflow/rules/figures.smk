@@ -33,7 +33,7 @@ rule animate:
             f"{OUTPUT}/figures/{{animation}}.mp4",
             caption="../report/animation.rst",
             category="Studies",
-            labels={"name": "{animation}", "shows": "One realization as a film"},
+            labels=labelled("{animation}", "One realization as a film"),
         ),
     log:
         f"{OUTPUT}/logs/animations/{{animation}}.log",

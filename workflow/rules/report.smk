@@ -1,7 +1,8 @@
 # Pages that only the report has: tables to sort and search, the configuration and the versions. `make report` asks for them.
 PAGES = {name: placed(f"workflow/tables/{name}.py", f"{name}.csv") for name in TABLES}
+PAGES["cost"] = {"category": "Cost", "labels": labelled("cost.csv", "What every job took")}
 if CLAIMS:
-    PAGES["claims"] = {"category": "Claims", "labels": {"name": "claims.csv", "shows": "What the papers claim, and whether it holds"}}
+    PAGES["claims"] = {"category": "Claims", "labels": labelled("claims.csv", "What the papers claim, and whether it holds")}
 
 
 rule page:
@@ -34,7 +35,7 @@ rule configuration:
             f"{OUTPUT}/report/configuration.html",
             caption="../report/configuration.rst",
             category="Configuration",
-            labels={"name": "configuration", "shows": "Every key that was set, and the versions of everything"},
+            labels=labelled("configuration", "Every key that was set, and the versions of everything"),
         ),
     log:
         f"{OUTPUT}/logs/report/configuration.log",

@@ -17,15 +17,13 @@ TIMES = [0.1, 0.2]
 def bed(make_run):
     """A run of disks of two sizes between two walls, as the simulation hands it over; one of them has not collided yet."""
     rng = np.random.default_rng(1)
-    run = make_run(n_particles=40, boundary="periodic wall")
+    run, frequency = make_run(n_particles=40, boundary="periodic wall"), rng.random((2, 40))
+    frequency[0, 7] = np.nan
     return run.assign(
         velocity=run["position"].copy(data=rng.normal(size=(2, 40, 2))),
         particle_diameter=("particle", rng.choice([1e-3, 2e-3], 40)),
         particle_mass=("particle", rng.random(40)),
-        collision_frequency=(
-            ("snapshot", "particle"),
-            np.where(np.arange(80).reshape(2, 40) == 7, np.nan, rng.random((2, 40))),
-        ),
+        collision_frequency=(("snapshot", "particle"), frequency),
     )
 
 

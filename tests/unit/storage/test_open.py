@@ -10,11 +10,18 @@ import xarray as xr
 from compliance_checker.runner import CheckSuite
 
 import granugas as gg
-from granugas.storage.dataset import pool, write, write_positions
+from granugas.storage.dataset import pool, with_errors, write, write_positions
 from granugas.storage.files import encoding
 
 ACCEPTED = {"Coordinate variable 'time' should have standard_name='time', found: 'None'"}
 """Simulated time has no date: the standard name `time` asks for units `... since <date>`."""
+
+PACKED = {
+    "Variable is not of type byte, short, or int as required for different type add_offset/scale_factor.",
+    "attribute trajectory_velocity:_QuantizeBitRoundNumberOfSignificantBits should begin with a letter and be composed of "
+    "letters, digits, and underscores",
+}
+"""Of packed positions: unsigned integers, which CF allows since 1.9 and the checker does not know; netCDF's own name."""
 
 TEXTS = ("axis", "lattice")
 """Coordinates of words, along which CF has no order; the checker stumbles over them."""
@@ -22,7 +29,7 @@ TEXTS = ("axis", "lattice")
 
 @pytest.fixture(scope="module")
 def files(tmp_path_factory):
-    """A run, its positions, a study by time with clusters, snapshots and words in its grid, one that ends by collisions."""
+    """A run, its positions, a study with clusters, snapshots and words in its grid, and one that ends by collisions."""
     folder = tmp_path_factory.mktemp("files")
     options = {"samples": {"count": 5}, "progress": False}
     runs = []
@@ -35,19 +42,18 @@ def files(tmp_path_factory):
     write_positions(runs[0], folder / "positions.nc")
     parts = [run.merge(gg.find_clusters(run, distance_factors=[1.1, 1.4]), combine_attrs="override") for run in runs]
     kept = [part.drop_vars([name for name in part if name.startswith("trajectory")]) for part in parts]
-    write(pool(kept, ["restitution", "lattice"]), folder / "study.nc")
+    write(with_errors(pool(kept, ["restitution", "lattice"])), folder / "study.nc")
     scene = gg.Scene(n_particles=36, area_fraction=0.25, restitution=0.8)
-    counted = [
-        gg.simulate(scene, {"collisions_per_particle": 5}, realization=k, keep_positions=False, **options) for k in (0, 1)
-    ]
-    write(pool([run.assign(realization=k) for k, run in enumerate(counted)], ["restitution"]), folder / "counted.nc")
+    until, options["keep_positions"] = {"collisions_per_particle": 5}, False
+    counted = [gg.simulate(scene, until, realization=k, **options).assign(realization=k) for k in (0, 1)]
+    write(pool(counted, ["restitution"]), folder / "counted.nc")
     return folder
 
 
 @pytest.mark.parametrize("name", ["run", "positions", "study", "counted"])
 def test_they_keep_to_cf(files, name):
     found, errors = findings(files / f"{name}.nc")
-    assert found <= ACCEPTED
+    assert found <= (ACCEPTED | PACKED if name == "positions" else ACCEPTED)
     assert errors <= {"check_coordinate_variables_strict_monotonicity"}  # cannot subtract words
 
 
