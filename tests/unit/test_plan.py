@@ -102,8 +102,7 @@ def test_effects_and_other_dynamics_have_their_own_cost() -> None:
         ("dsmc", end.collisions * 2870, plan.OTHER_DYNAMICS["dsmc"]),
         ("soft_spheres", 5740 * end.tau / rate_of(plain) / (1e-5 / 50), plan.OTHER_DYNAMICS["soft_spheres"]),
     ):
-        scene = replace(plain)
-        object.__setattr__(scene, "dynamics", dynamics)  # whether or not scenes know it yet
+        scene = replace(plain, dynamics=dynamics)
         assert motion_seconds(scene, end, MACHINE) == pytest.approx(work * ns * 1e-9)
 
 
