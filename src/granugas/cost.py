@@ -25,6 +25,8 @@ MADE = {
     "animations": "figures/{}.mp4",
     "tables": "{}.csv",
     "claims": "claims.csv",
+    "explorer": "explorer.html",
+    "report": "report/{}.html",
     "check": "checks.txt",
     "warm_up": "",
 }
