@@ -117,6 +117,7 @@ def _choose(options: argparse.Namespace, asked: "Studies", config: dict[str, Any
 
     from granugas.calibration import calibration
     from granugas.choice import cheapest, overlay
+    from granugas.storage.files import replacing
 
     if options.study is None:
         raise ValueError("--error: name the study it is asked of, --study")
@@ -129,7 +130,8 @@ def _choose(options: argparse.Namespace, asked: "Studies", config: dict[str, Any
     else:
         print(f"{choice}")
     if options.output:
-        Path(options.output).write_text(yaml.safe_dump(mine, sort_keys=False), encoding="utf-8")
+        with replacing(options.output) as path:
+            path.write_text(yaml.safe_dump(mine, sort_keys=False), encoding="utf-8")
         files = " ".join(dict.fromkeys([BASE, *options.overlays, options.output]))
         print(f"snakemake --cores 2 {asked.output}/studies/{name}.nc --configfile {files}", file=sys.stderr)
     return 0

@@ -16,6 +16,7 @@ import numpy as np
 
 from granugas.digest import kernel_cache_directory
 from granugas.scene import Scene
+from granugas.storage.files import replacing
 
 SIZES = (500, 5740, 79524)
 """Numbers of particles whose collisions are timed."""
@@ -70,9 +71,8 @@ def calibration() -> Calibration:
     path = kernel_cache_directory() / f"calibration-{platform.node()}-{os.cpu_count()}.json"
     if (kept := _kept(path)) is None:
         kept = measure()
-        temporary = path.with_name(f".{path.name}.{os.getpid()}")
-        temporary.write_text(json.dumps(asdict(kept)))
-        os.replace(temporary, path)
+        with replacing(path) as temporary:
+            temporary.write_text(json.dumps(asdict(kept)))
     return kept
 
 

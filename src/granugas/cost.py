@@ -25,6 +25,8 @@ MADE = {
     "animations": "figures/{}.mp4",
     "tables": "{}.csv",
     "claims": "claims.csv",
+    "explorer": "explorer.html",
+    "report": "report/{}.html",
     "check": "checks.txt",
     "warm_up": "",
 }
@@ -148,12 +150,13 @@ def processor_time() -> float:
 
 def record(log: Path, cost: Cost) -> None:
     """Write it beside the log, with what an attempt took that did not come to its end."""
+    from granugas.storage.files import replacing  # which loads more than the start of a job should wait for
+
     path = log.with_suffix(".json")
     before = _read(path)
     whole = before + cost if before is not None and not before.done else cost
-    temporary = path.with_name(f".{path.name}.{os.getpid()}")
-    temporary.write_text(json.dumps(asdict(whole)))
-    os.replace(temporary, path)
+    with replacing(path) as temporary:
+        temporary.write_text(json.dumps(asdict(whole)))
 
 
 def entries(output: str | Path) -> list[Entry]:
@@ -168,17 +171,16 @@ def entries(output: str | Path) -> list[Entry]:
 
 def write_table(path: str | Path, found: Iterable[Entry], studies: Mapping[tuple[str, str], str]) -> None:
     """Write a row for each job, COLUMNS: seconds, and the study that first asked for it ("" for none)."""
+    from granugas.storage.files import replacing
+
     rows = [
         {"study": studies.get((one.rule, one.name), ""), "rule": one.rule, "name": one.name, **_numbers(one.cost)}
         for one in found
     ]
-    path = Path(path)
-    temporary = path.with_name(f".{path.name}.{os.getpid()}")
-    with open(temporary, "w", newline="") as file:
+    with replacing(path) as temporary, open(temporary, "w", newline="") as file:
         table = csv.DictWriter(file, COLUMNS, lineterminator="\n")
         table.writeheader()
         table.writerows(sorted(rows, key=lambda row: (row["study"], row["rule"], row["name"])))
-    os.replace(temporary, path)
 
 
 def renew_table(output: str | Path, studies: Mapping[tuple[str, str], str]) -> Path:

@@ -190,16 +190,16 @@ def loss_at(scene: Scene) -> Callable[[Numbers], Numbers]:
 def scatter(scene: Scene, end: End) -> dict[str, float]:
     """Relative standard deviations over realizations at the end of a run: kinetic_energy, pressure, mean_cluster_size.
 
-    K: sqrt{[2 (1-r^2)]^2 + [min(.8 (1-r^2), .55)]^2 tau} / sqrt(N), the first part the chance of a start, the second the growth
+    K: sqrt{[2 (1-r^2)]^2 + [min(.8 (1-r^2), .4)]^2 tau} / sqrt(N), the first part the chance of a start, the second the growth
     of shear and density, which small systems have no room for (N / (N + 150)). P over the last of 60 intervals in log t,
     over .13 C/N: .4 / sqrt(collisions), and with clusters .4 (P - 1)/P, which does not fall with N in what was measured
     (378 ... 5740): a few dense places have most of the collisions. <M>: .45 / sqrt(N), as of N independent bonds, and with
-    clusters .18 sqrt(tau) / sqrt(N). K and <M> scatter by MOST at most. All measured with 5 to 24 runs at each of 12 points
-    until tau = 2225; right within a factor 2.
+    clusters .25 sqrt(tau) / sqrt(N). K and <M> scatter by MOST at most. All measured with 5 to 24 runs at each of 12 points
+    until tau = 2225; right within a factor 2, most of them.
     """
     n = scene.n_particles
     loss = 2 * scene.dimensions * float(loss_at(scene)(np.ones(1))[0]) if scene.dissipates else 0.0
-    growth = min(0.8 * loss, 0.55) * n / (n + 150) * math.sqrt(end.tau)
+    growth = min(0.8 * loss, 0.4) * n / (n + 150) * math.sqrt(end.tau)
     energy = math.hypot(2 * loss, 0.0 if scene.heating > 0 else growth) / math.sqrt(n)
     excess = float(reduced_pressure(scene.area_fraction, dimensions=scene.dimensions)) - 1
     excess += end.share * (0.2 - excess)
@@ -207,7 +207,7 @@ def scatter(scene: Scene, end: End) -> dict[str, float]:
     return {
         "kinetic_energy": min(energy, MOST) if scene.dissipates else 0.0,
         "pressure": math.hypot(0.4 / math.sqrt(in_interval), 0.4 * end.share * excess / (1 + excess)),
-        "mean_cluster_size": min(math.hypot(0.45, 0.18 * end.share * math.sqrt(end.tau)) / math.sqrt(n), MOST),
+        "mean_cluster_size": min(math.hypot(0.45, 0.25 * end.share * math.sqrt(end.tau)) / math.sqrt(n), MOST),
     }
 
 

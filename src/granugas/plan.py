@@ -117,7 +117,8 @@ def run_seconds(run: Run, end: End, machine: Calibration) -> float:
 def motion_seconds(scene: Scene, end: End, machine: Calibration) -> float:
     """Of the motion of all particles from t = 0 to the end, by what moves them.
 
-    From event to event: collisions. Soft spheres: particle-steps, `steps_per_contact` of them in t_c. DSMC: collisions.
+    From event to event: collisions. Soft spheres: particle-steps, `steps_per_contact` of them in t_c. DSMC: collisions,
+    as many as of hard particles, though it knows less of their clusters.
     """
     collisions = end.collisions * scene.n_particles / 2
     if scene.dynamics == "soft_spheres":

@@ -140,6 +140,8 @@ def test_the_last_line_of_a_build(results: Path) -> None:
 def test_every_folder_of_logs_is_known() -> None:
     texts = [path.read_text() for path in (ROOT / "workflow/rules").glob("*.smk")]
     assert {name for text in texts for name in re.findall(r"logs/(\w+)", text)} == {*MADE, "cost"}
+    figure = runpy.run_path(str(ROOT / "workflow/figures/cost.py"))
+    assert {*figure["OF_STUDIES"], *figure["OTHERS"]} == {*MADE}
 
 
 def test_shared_work_counts_for_the_first_study_that_asks() -> None:

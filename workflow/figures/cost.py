@@ -11,9 +11,10 @@ SECTION = "Cost"
 STUDIES = ()
 TABLES = ("cost",)
 OF_STUDIES = {"equilibrate": "start states", "simulate": "runs", "clusters": "clusters", "pool": "pooling"}
+PICTURES = "figures, films, tables, claims"
 OTHERS = {
     "experiments": "experiments",
-    **dict.fromkeys(("figures", "animations", "tables", "claims", "check"), "figures, films, tables, claims"),
+    **dict.fromkeys(("figures", "animations", "tables", "claims", "explorer", "report", "check"), PICTURES),
     "warm_up": "kernels, compiled ahead",
 }
 NOT_NAMED = "studies of other configurations"

@@ -76,7 +76,7 @@ def with_errors(pooled: xr.Dataset) -> xr.Dataset:
     result = pooled.copy()
     for name in filter(lambda name: _is_observable(pooled[name]), pooled.data_vars):
         number = pooled[name].notnull().sum("realization")
-        result[f"{name}{ERROR}"] = pooled[name].std("realization", ddof=1) / np.sqrt(number.where(number > 1))
+        result[f"{name}{ERROR}"] = pooled[name].std("realization", ddof=1) / np.sqrt(number)
         result[name].attrs["ancillary_variables"] = f"{name}{ERROR}"
     return describe(result)
 
