@@ -11,21 +11,18 @@ from typing import Any, NamedTuple
 
 from workflow.project import ROOT, copy_of_sources
 
-PAGES = [
-    Path("README.md"),
-    *sorted(path.relative_to(ROOT) for path in (ROOT / "docs").rglob("*.md") if "_build" not in path.parts),
-]
+TEXTS = [path.relative_to(ROOT) for path in sorted((ROOT / "docs").rglob("*.md")) if "_build" not in path.parts]
+"""Of the documentation."""
+
+PAGES = [Path("README.md"), *TEXTS]
 COPIED = ("Makefile", "README.md", "pyproject.toml", "requirements.lock", "requirements-docs.lock")
 """Besides the sources of the workflow."""
 
 DRY = {"make ": "make --dry-run ", "snakemake ": "snakemake --dry-run "}
 """What a dry run makes of commands."""
 
-_BLOCK = re.compile(
-    r"^(?:<!-- (?P<mark>dry run|only shown): (?P<reason>\S[^\n]*) -->\n)?"
-    r"```(?P<language>\w+|\{code-cell\} python)\n(?P<text>.*?)^```$",
-    re.M | re.S,
-)
+_MARK = r"(?:<!-- (?P<mark>dry run|only shown): (?P<reason>\S[^\n]*) -->\n)?"
+_BLOCK = re.compile(rf"^{_MARK}```(?P<language>\w+|\{{code-cell\}} python)\n(?P<text>.*?)^```$", re.M | re.S)
 _FILE = re.compile(r"(?:#|\.\.) (\S+\.\w+)\n")
 
 
