@@ -45,7 +45,7 @@ def large(tmp_path_factory):
 
 def settle(page):
     """Let the page draw what it was asked for."""
-    page.evaluate("new Promise((done) => requestAnimationFrame(() => setTimeout(() => requestAnimationFrame(done), 50)))")
+    until(page, "document.getElementById('picture').getAttribute('aria-busy') === 'false'")
 
 
 def text(page, name):

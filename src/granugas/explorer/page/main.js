@@ -134,6 +134,7 @@ function chooseColour(name) {
 function refresh() {
   if (drawing) return;
   drawing = true;
+  element("picture").setAttribute("aria-busy", "true");
   requestAnimationFrame(draw);
 }
 
@@ -148,6 +149,7 @@ async function draw() {
   painter.paint(run, frame, camera, palette, index);
   drawOver(frame);
   showNumbers(frame);
+  element("picture").setAttribute("aria-busy", "false");
   element("drawn").textContent = `drawn in ${(performance.now() - begun).toFixed(0)} ms`;
 }
 

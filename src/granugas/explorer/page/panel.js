@@ -10,7 +10,7 @@ export function figures(value, digits = 4) {
   if (value === 0) return "0";
   const exponent = Math.floor(Math.log10(Math.abs(value)));
   if (exponent >= -3 && exponent < 6) return value.toFixed(Math.max(digits - 1 - exponent, 0));
-  return `${(value / 10 ** exponent).toFixed(digits - 2)}·${powerOfTen(exponent)}`;
+  return `${(value / 10 ** exponent).toFixed(Math.max(digits - 2, 0))}·${powerOfTen(exponent)}`;
 }
 
 /** The scene of a run in one line. */
