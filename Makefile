@@ -5,7 +5,7 @@ VENV := .venv/bin
 SNAKEMAKE := $(VENV)/snakemake --cores $(CORES)
 PYTEST := SLURM_CONF=/dev/null MPLBACKEND=Agg $(VENV)/python -m pytest -n $(CORES) --dist loadfile
 
-.PHONY: help figures preview report test test-full test-pages bench docs gallery prune lint lock clean
+.PHONY: help figures preview report test test-full test-pages browser bench docs gallery prune lint lock clean
 
 help:
 	@echo 'make figures    all figures at full size, into results/'
@@ -38,11 +38,13 @@ test: .venv/.installed
 test-full: .venv/.docs
 	$(PYTEST) -m "not pages"
 
-test-pages: .venv/.pages
+test-pages: browser .venv/.pages
+	$(PYTEST) -m pages -n 0 tests/pages
+
+browser:
 	@missing=; for need in chromium:chromium ncdump:netcdf-bin; do \
 		command -v $${need%%:*} > /dev/null || missing="$$missing $${need##*:}"; done; \
-		test -z "$$missing" || { echo "Missing packages of the distribution: apt-get install$$missing"; exit 1; }
-	$(PYTEST) -m pages -n 0 tests/pages
+		test -z "$$missing" || { echo "make test-pages needs packages of the distribution: apt-get install$$missing"; exit 1; }
 
 bench: .venv/.installed
 	$(VENV)/python benchmarks/speed.py

@@ -214,31 +214,43 @@ def test_the_keyboard_gets_everywhere(opened, explorer):
     assert text(page, "time") == stopped
 
 
-def test_zoom_and_pan(opened, explorer):
+def test_zoom_and_pan(opened, explorer, sources):
     """The wheel keeps the place below the pointer; a periodic box goes on beyond its edges; to fit the box undoes it."""
     page = opened(explorer)
     page.keyboard.press("3")
     settle(page)
     whole = picture(page)
+    with read_positions(sources["filmed"].positions) as run:
+        place = run["trajectory"][0, 500].values / run.attrs["diameter"]
+        share = run["trajectory"][0, 500].values / run.attrs["box_x"]
     box = page.locator("#disks").bounding_box()
-    middle = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
-    page.mouse.move(*middle)
+    below = box["x"] + share[0] * box["width"], box["y"] + (1 - share[1]) * box["height"]
+    page.mouse.move(*below)
     for _ in range(8):
         page.mouse.wheel(0, -100)
     settle(page)
     assert float(text(page, "view").split("box / ")[1]) == pytest.approx(np.exp(2), rel=0.01)
+    page.mouse.move(below[0] + 1, below[1])
+    page.locator("#hover").wait_for()
+    said = [float(line.split()[2]) for line in text(page, "hover").splitlines()[:2]]
+    np.testing.assert_allclose(said, place, atol=0.1)
     page.keyboard.press("0")
     settle(page)
     np.testing.assert_array_equal(picture(page), whole)
+    middle = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    page.mouse.move(*middle)
     page.mouse.down()
     page.mouse.move(middle[0] + box["width"] / 4, middle[1], steps=5)
     page.mouse.up()
     settle(page)
-    quarter = box["width"] / 4
-    moved = picture(page)
-    shift = round(quarter)
-    apart = abs(moved[:600, shift + 10 :].astype(int) - whole[:600, 10 : whole.shape[1] - shift])
-    assert np.median(apart) == 0 and (apart.max(axis=-1) > 100).mean() < 0.1
+    shift = round(box["width"] / 4)
+    moved, before = picture(page)[:600].astype(int), whole[:600].astype(int)
+    for there, here in (
+        (moved[:, shift + 10 :], before[:, 10:-shift]),  # what was seen is farther right
+        (moved[:, : shift - 10], before[:, -shift:-10]),  # and what was at the right edge comes in at the left
+    ):
+        apart = abs(there - here)
+        assert np.median(apart) == 0 and (apart.max(axis=-1) > 100).mean() < 0.1
 
 
 def test_a_disk_says_what_it_is(opened, explorer, sources):

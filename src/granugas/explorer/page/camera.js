@@ -47,17 +47,14 @@ export class Camera {
   /** Zoom by a factor about a pixel, which stays where it is. */
   zoomAt(factor, x, y) {
     const [atX, atY] = [this.left + x / this.scale, this.bottom + (this.height - y) / this.scale];
-    this.zoom *= factor;
-    this.settle(false);
+    this.zoom = Math.min(Math.max(this.zoom * factor, 1), Math.max(this.box[0] / NEAREST, 1));
     this.left = atX - x / this.scale;
     this.bottom = atY - (this.height - y) / this.scale;
     this.settle();
   }
 
   /** Keep to the box; a periodic one goes on beyond its edges. */
-  settle(places = true) {
-    this.zoom = Math.min(Math.max(this.zoom, 1), Math.max(this.box[0] / NEAREST, 1));
-    if (!places) return;
+  settle() {
     const [width, height] = this.seen;
     const within = (at, side, seen, periodic) => (periodic ? modulo(at, side) : Math.min(Math.max(at, 0), side - seen));
     this.left = within(this.left, this.box[0], width, this.periodic[0]);

@@ -78,7 +78,7 @@ export class Plot {
       });
     const grey = curves.map((curve) => `<path class="known" d="${this.path(curve.times, curve.values)}"/>`);
     this.svg.innerHTML = `${lines.join("")}${levels.join("")}${grey.join("")}${ends.join("")}
-      <text class="unit" x="${WIDTH - EDGE.right + 4}" y="${HEIGHT - 4}">t (s)</text>
+      <text class="unit" x="${WIDTH - EDGE.right + 12}" y="${HEIGHT - 4}">t (s)</text>
       <line class="now" y1="${EDGE.top}" y2="${HEIGHT - EDGE.bottom}" visibility="hidden"/>
       <path class="live"/><g class="dots"></g>`;
   }
