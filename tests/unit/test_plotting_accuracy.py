@@ -114,11 +114,41 @@ def test_all_panels_have_the_same_axes(count):
     assert shown[0].get_title(loc="left") == "(a)"
 
 
+def sized() -> xr.Dataset:
+    """Systems of three sizes, as `experiments.accuracy_sizes` has them."""
+    cases, ones = ("K at 1 s", "exponent of <M>"), np.ones((3, 2))
+    over = ("setting", "observable")
+    return xr.Dataset(
+        {name: (over, value * ones) for name, value in
+         {"relative_error": 0.02, "relative_error_error": 0.005, "relative_spread": 0.1, "measured_spread": 0.03}.items()}
+        | {"exponents": (("setting", "distance_factor", "window_shift"), np.linspace(0.4, 0.6, 12).reshape(3, 2, 2)),
+           "cpu_seconds": ("setting", [0.01, 0.1, 1.0])},
+        {"setting": [42, 378, 1435], "observable": list(cases), "distance_factor": [1.1, 1.2], "window_shift": [0.71, 1.0]},
+        {"distance_factor": 1.1},
+    )  # fmt: skip
+
+
+def study(seconds: float, energies, **settings) -> xr.Dataset:
+    """Three realizations of one method at two times."""
+    energy = np.multiply.outer(np.asarray(energies), np.ones((3, 2))) + 0.01 * np.arange(3)[:, np.newaxis]
+    over = (*settings, "realization")
+    coords = {"realization": range(3), "time": [0.0, 5.0]} | settings
+    cost = np.full(energy.shape[:-1], seconds)
+    return xr.Dataset({"kinetic_energy": ((*over, "time"), energy), "cpu_time": (over, cost)}, coords)
+
+
 def test_the_figure_draws_every_knob():
     module = runpy.run_path(str(FIGURE))
-    figure = module["draw"](KNOBS)
-    assert set(module["EXPERIMENTS"]) == set(KNOBS)
-    for axes, make in zip(figure.axes, (contact_time, sampling, equilibration, arithmetic), strict=True):
+    studies = {
+        "methods_events": study(0.1, 0.5),
+        "methods_dsmc": study(0.2, 0.6),
+        "methods_soft_spheres": study(3.0, [0.55, 0.52], steps_per_contact=[10, 50]),
+    }
+    data = KNOBS | {"accuracy_sizes": sized()} | studies
+    assert {*module["EXPERIMENTS"], *module["STUDIES"]} == set(data)
+    figure = module["draw"](data)
+    assert len(figure.axes) == 8 and all(axes.get_legend().get_texts() for axes in figure.axes)
+    for axes, make in zip(figure.axes, (contact_time, sampling, equilibration, arithmetic), strict=False):
         curves = make(KNOBS[f"accuracy_{make.__name__}"])
         assert [text.get_text() for text in axes.get_legend().get_texts()] == [curve.label for curve in curves]
         seen = np.concatenate([bars[0].get_ydata() for bars in axes.containers])

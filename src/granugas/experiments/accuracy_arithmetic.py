@@ -14,14 +14,13 @@ from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
-import numba
 import numpy as np
 import xarray as xr
 
 from granugas.analysis.accuracy import bias
 from granugas.analysis.observables import kinetic_energy
 from granugas.benchmark import always_contact_time
-from granugas.dynamics.events import loop
+from granugas.dynamics.events.arithmetic import use
 from granugas.dynamics.events.engine import Engine
 from granugas.dynamics.state import State
 from granugas.equilibrate import equilibrate, state_of
@@ -91,12 +90,6 @@ def measure(plan: Plan = FULL) -> xr.Dataset:
         flags=[f"{name}: {FLAGS[name] or 'none'}" for name in plan.settings],
         **{key: getattr(COOLING, key) for key in ("area_fraction", "restitution", "contact_time", "diameter")},
     )
-
-
-def use(flags: set[str]) -> None:
-    """From now on, and for the rest of this process, the loop is compiled with these flags; without any it stays."""
-    for name in ("run", "start") if flags else ():
-        setattr(loop, name, numba.njit(error_model="numpy", fastmath=flags)(getattr(loop, name).py_func))
 
 
 def _in_own_process(flags: str, starts: list[State], plan: Plan) -> xr.Dataset:
