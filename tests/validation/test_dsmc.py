@@ -93,6 +93,19 @@ def test_few_particles(n):
     assert 2 * tally.collisions / (n * engine.time) == pytest.approx(rate_of(scene) * {2: 0.798, 10: 0.9619}[n], rel=0.005)
 
 
+def test_a_homogeneous_gas_knows_no_error_of_the_step(monkeypatch):
+    """A hundred disks that begin with velocities of +-w along x, in one step: the largest relative speed grows with them."""
+    monkeypatch.setattr("granugas.dynamics.dsmc.STEP", 4000.0)
+    scene = replace(GAS, n_particles=100, particles_per_cell=ONE_CELL)
+    start = gas(scene, 1).state()
+    start.velocity[:] = np.outer(np.resize([1, -1], 100), [1, 0]) * math.sqrt(2 * scene.energy_per_mass)
+    engine = engine_of(scene, replace(start, seed=(1,)))
+    engine.advance(math.inf, most_events=1)
+    pressure = -np.trace(engine.take_tally().stress) / (2 * 100 * scene.energy_per_mass * engine.time)
+    assert engine.collisions > 1e5
+    assert pressure == pytest.approx(float(reduced_pressure(0.25)) - 1, rel=0.01)
+
+
 @pytest.mark.parametrize("r", [0.95, 0.9, 0.6])
 def test_homogeneous_cooling(r):
     """A Eq. 23 with the a_2 of the homogeneous state (Montanero & Santos), which the first collisions bring about."""
