@@ -112,7 +112,6 @@ rule cost:
     log:
         f"{OUTPUT}/logs/cost.log",
     params:
-        results=OUTPUT,
         studies=FIRST_TO_ASK,
     script:
         "../scripts/cost.py"

@@ -3,6 +3,9 @@
 from granugas.jobs import logged
 
 with logged(snakemake.log[0]):
+    from pathlib import Path
+
     from granugas.cost import entries, write_table
 
-    write_table(snakemake.output[0], entries(snakemake.params.results), snakemake.params.studies)
+    table = Path(snakemake.output[0])
+    write_table(table, entries(table.parent), snakemake.params.studies)

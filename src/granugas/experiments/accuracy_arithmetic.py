@@ -8,10 +8,8 @@ import math
 import pickle
 import subprocess
 import sys
-import tempfile
 import time
 from dataclasses import replace
-from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
@@ -98,11 +96,8 @@ def _in_own_process(flags: str, starts: list[State], plan: Plan) -> xr.Dataset:
     Raises:
         subprocess.CalledProcessError: it failed; its own message stands above.
     """
-    with tempfile.TemporaryDirectory() as folder:
-        given, made = Path(folder, "given"), Path(folder, "made")
-        given.write_bytes(pickle.dumps((starts, plan)))
-        subprocess.run([sys.executable, "-m", __name__, flags, given, made], check=True)
-        return pickle.loads(made.read_bytes())
+    command = [sys.executable, "-m", __name__, flags]
+    return pickle.loads(subprocess.run(command, input=pickle.dumps((starts, plan)), stdout=subprocess.PIPE, check=True).stdout)
 
 
 def _both(starts: list[State], plan: Plan) -> xr.Dataset:
@@ -169,6 +164,5 @@ def _named(look: float) -> str:
 
 
 if __name__ == "__main__":
-    flags, given, made = sys.argv[1:]
-    use(set(flags.split()))
-    Path(made).write_bytes(pickle.dumps(_both(*pickle.loads(Path(given).read_bytes()))))
+    use(set(sys.argv[1].split()))
+    sys.stdout.buffer.write(pickle.dumps(_both(*pickle.load(sys.stdin.buffer))))
