@@ -1,6 +1,7 @@
 """Other flags change the last digits and the order of collisions, and stay out of the cache of kernels."""
 
 import os
+import shutil
 from pathlib import Path
 
 import numpy as np
@@ -12,17 +13,22 @@ from granugas.experiments import accuracy_arithmetic as experiment
 from granugas.storage.variables import describe
 
 
-def cached() -> dict[Path, int]:
-    return {path: path.stat().st_mtime_ns for path in Path(os.environ["NUMBA_CACHE_DIR"]).rglob("*.nb*")}
+def cached(folder: Path) -> dict[Path, int]:
+    return {path: path.stat().st_mtime_ns for path in folder.rglob("*.nb*")}
 
 
 @pytest.fixture(scope="module")
-def measured():
+def measured(tmp_path_factory):
+    """With a copy of the cache, which no other test writes to."""
     strict = experiment._engine(experiment.ELASTIC, state_of(equilibrate(experiment.ELASTIC)))
     strict.advance(1.0, 1)
-    before = cached()
-    data = describe(experiment.measure(experiment.SMALL))
-    return data.assign_attrs(cache_as_before=before and cached() == before)
+    folder = tmp_path_factory.mktemp("cache") / "copy"
+    shutil.copytree(os.environ["NUMBA_CACHE_DIR"], folder)
+    before = cached(folder)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("NUMBA_CACHE_DIR", str(folder))
+        data = describe(experiment.measure(experiment.SMALL))
+    return data.assign_attrs(cache_as_before=before and cached(folder) == before)
 
 
 def test_the_cache_is_as_it_was(measured):
