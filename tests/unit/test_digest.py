@@ -166,8 +166,7 @@ def test_every_compiled_function_is_covered():
     paths = [path for path in sources.SOURCES.rglob("*.py") if not compiled.isdisjoint(names_imported(path))]
     assert paths
     covered = {path for module in sources.KERNELS for _, path in sources._source_files(module)}
-    in_memory = {sources.SOURCES / "experiments/accuracy_arithmetic.py"}  # what it compiles is kept nowhere
-    assert set(paths) <= covered | in_memory
+    assert set(paths) <= covered
 
 
 def names_imported(path: Path) -> set[str]:

@@ -1,9 +1,5 @@
 """Other flags change the last digits and the order of collisions, and stay out of the cache of kernels."""
 
-import os
-import shutil
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -13,26 +9,30 @@ from granugas.experiments import accuracy_arithmetic as experiment
 from granugas.storage.variables import describe
 
 
-def cached(folder: Path) -> dict[Path, int]:
-    return {path: path.stat().st_mtime_ns for path in folder.rglob("*.nb*")}
+@pytest.fixture(scope="module")
+def cache(tmp_path_factory):
+    """The cache of kernels of processes with flags: one of their own, as others fill the usual one meanwhile."""
+    return tmp_path_factory.mktemp("kernels")
 
 
 @pytest.fixture(scope="module")
-def measured(tmp_path_factory):
-    """With a copy of the cache, which no other test writes to."""
-    strict = experiment._engine(experiment.ELASTIC, state_of(equilibrate(experiment.ELASTIC)))
-    strict.advance(1.0, 1)
-    folder = tmp_path_factory.mktemp("cache") / "copy"
-    shutil.copytree(os.environ["NUMBA_CACHE_DIR"], folder)
-    before = cached(folder)
+def measured(cache):
+    run = experiment._in_own_process
+
+    def watched(flags, *arguments):
+        with pytest.MonkeyPatch.context() as patch:
+            if flags:
+                patch.setenv("NUMBA_CACHE_DIR", str(cache))
+            return run(flags, *arguments)
+
     with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("NUMBA_CACHE_DIR", str(folder))
-        data = describe(experiment.measure(experiment.SMALL))
-    return data.assign_attrs(cache_as_before=before and cached(folder) == before)
+        patch.setattr(experiment, "_in_own_process", watched)
+        return describe(experiment.measure(experiment.SMALL))
 
 
-def test_the_cache_is_as_it_was(measured):
-    assert measured.attrs["cache_as_before"]
+def test_nothing_with_flags_is_kept(measured, cache):
+    assert measured["setting"].values.tolist() == ["strict", "fused"]
+    assert not [path for path in cache.rglob("*.nb*")]
 
 
 def test_fused_operations_change_the_order_after_a_while(measured):
