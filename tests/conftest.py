@@ -1,6 +1,7 @@
 """Gases to start from."""
 
 import math
+import signal
 from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
@@ -16,6 +17,11 @@ from granugas.scene import Scene
 
 TILTED = {2: 1, 3: 1, 5: 2}
 """Few disks start at (k, m k)/N of the box (spheres: and m^2 k), where they have more room than in rows: m for each N."""
+
+
+def pytest_sessionstart() -> None:
+    """Shells let what they start in the background ignore Ctrl-C, which some tests send."""
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 @pytest.fixture(scope="session")

@@ -177,9 +177,9 @@ def methods(events: xr.Dataset, others: Mapping[str, xr.Dataset]) -> list[Curve]
         others: studies by the words of their curves; the knob of soft spheres is the number of steps in a contact.
     """
     last, curves = events["time"].values[-1], []
-    truths = events["kinetic_energy"].sel(time=last).squeeze(drop=True)
+    truths = _without_single(events["kinetic_energy"].sel(time=last))
     for label, study in others.items():
-        seen = study[["kinetic_energy", "cpu_time"]].sel(time=last).squeeze(drop=True)
+        seen = _without_single(study[["kinetic_energy", "cpu_time"]].sel(time=last))
         both = sorted({*seen["realization"].values} & {*truths["realization"].values})
         found = bias(seen["kinetic_energy"].sel(realization=both), truths.sel(realization=both))
         cost, error, uncertainty = (
@@ -189,6 +189,11 @@ def methods(events: xr.Dataset, others: Mapping[str, xr.Dataset]) -> list[Curve]
         names = [f"{steps}" for steps in np.atleast_1d(seen["steps_per_contact"])] if "steps_per_contact" in seen.dims else []
         curves.append(Curve(label, cost, error, uncertainty, names))
     return curves
+
+
+def _without_single(data: xr.Dataset) -> xr.Dataset:
+    """Without keys of the grid that hold one value."""
+    return data.squeeze([dim for dim in data.dims if dim != "realization" and data.sizes[dim] == 1], drop=True)
 
 
 def accuracy_figure(panels: Mapping[str, Sequence[Curve]], seconds: tuple[float, float], error: tuple[float, float]) -> Figure:

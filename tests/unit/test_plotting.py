@@ -1,5 +1,6 @@
 """The drawings that figures share, and every figure on made-up studies: full grids, small ones, single runs."""
 
+import itertools
 import runpy
 import subprocess
 import sys
@@ -9,6 +10,7 @@ from pathlib import Path
 
 import matplotlib as mpl
 import numpy as np
+import pandas as pd
 import pytest
 import xarray as xr
 from made_up import collapse_study, elastic_study
@@ -19,7 +21,11 @@ from matplotlib.figure import Figure
 
 from granugas import plotting
 from granugas.analysis import theory
+from granugas.analysis.clusters import find_clusters
 from granugas.analysis.statistics import fit_power_law
+from granugas.scene import Scene
+from granugas.simulate import simulate
+from granugas.storage.pooling import pool
 
 FIGURES = Path(__file__).parents[2] / "workflow" / "figures"
 NAMES = sorted(path.stem for path in FIGURES.glob("*.py"))
@@ -80,11 +86,32 @@ def needed_by(studies, realizations, contact_times):
         if name.startswith("tc1998_elastic")
         else collapse_study(int(name.removeprefix("collapse_n")), realizations)
         if name.startswith("collapse_n")
+        else by_method(name.removeprefix("methods_"), realizations)
+        if name.startswith("methods_")
         else study(realizations, contact_time=contact_times)
         if name == "tc1998_contact_times"
         else study(realizations, n_particles=[100 + index])
         for index, name in enumerate(studies)
     }
+
+
+@cache
+def by_method(dynamics, realizations):
+    """A small gas of real runs, over two lengths of steps where there are steps."""
+    several = [{"steps_per_contact": n} for n in (10, 20)] if dynamics == "soft_spheres" else [{}]
+    parts = []
+    for keys, k in itertools.product(several, range(realizations)):
+        scene = Scene(49, 0.2267, restitution=0.6, contact_time=3e-4, dynamics=dynamics, **keys)
+        run = simulate(scene, 0.02, realization=k, samples={"count": 6}, snapshots=[0.01, 0.02], progress=False)
+        found = find_clusters(run, distance_factors=[1.1]).drop_vars(["snapshot"], errors="ignore")
+        parts.append(xr.merge([run.drop_vars("trajectory"), found], compat="override", combine_attrs="override"))
+    return pool(parts, ["restitution", *several[0]])
+
+
+def costs():
+    """What three jobs took."""
+    rows = {"study": ["one", "one", None], "rule": ["simulate", "pool", "figures"], "cpu_seconds": [60.0, 2.0, 3.0]}
+    return xr.Dataset.from_dataframe(pd.DataFrame(rows))
 
 
 @cache
@@ -106,7 +133,7 @@ def test_every_figure_draws(name, realizations, contact_times, tmp_path):
     figure_file = runpy.run_path(str(FIGURES / f"{name}.py"))
     experiments = figure_file.get("EXPERIMENTS", ())
     studies = figure_file["STUDIES"] if experiments else figure_file["STUDIES"] or ("tc1998_contact_times",)
-    made = {name: measured(name) for name in experiments}
+    made = {name: measured(name) for name in experiments} | {name: costs() for name in figure_file.get("TABLES", ())}
     figure = figure_file["draw"](needed_by(studies, realizations, contact_times) | made)
     plotting.save(figure, tmp_path / "figure.png")
     assert (tmp_path / "figure.png").stat().st_size > 10_000

@@ -65,8 +65,13 @@ FROM_PYTHON = [
     (lambda: gg.find_clusters(PAIR, distance_factors=["S"]), ValueError, "distance_factors = ['S']: allowed are numbers"),
     (lambda: gg.find_clusters(xr.Dataset()), ValueError, "neither trajectory nor position"),
     (lambda: gg.load_study("nowhere/mine.nc"), FileNotFoundError, "nowhere/mine.nc: no such study"),
-    (lambda: gg.load_study(__file__), DamagedFile, "is damaged"),
 ]
+
+
+def test_a_file_that_is_no_dataset_is_no_study(tmp_path: Path) -> None:
+    (tmp_path / "study.nc").write_text("no dataset")
+    with pytest.raises(DamagedFile, match="is damaged"):
+        gg.load_study(tmp_path / "study.nc")
 
 
 @pytest.mark.parametrize(("call", "error", "said"), FROM_PYTHON, ids=[case[2] for case in FROM_PYTHON])

@@ -22,15 +22,14 @@ SPEEDS, DISTANCES = np.linspace(-4, 4, 33), np.linspace(0.9, 4.0, 32)
 def of_snapshots(runs: xr.Dataset, bins: np.ndarray, what: str) -> tuple[np.ndarray, np.ndarray]:
     """Middles of bins, and mean over realizations of what there is in each at the last snapshot."""
     found, last = [], runs.isel(snapshot=-1)
-    box = [runs.attrs["box_x"], runs.attrs["box_y"]]
     for k in range(runs.sizes["realization"]):
         one = last.isel(realization=k)
         if what == "velocity":
             v = one["velocity"].values
             found.append(np.histogram((v / np.sqrt(np.mean(v**2))).ravel(), bins, density=True)[0])
         else:
-            d = runs.attrs["diameter"]
-            found.append(pair_correlation(one["position"].values / d, np.divide(box, d), bins))
+            sides = np.array([float(one["box_x"]), float(one["box_y"])]) / runs.attrs["diameter"]
+            found.append(pair_correlation(one["position"].values / runs.attrs["diameter"], sides, bins))
     return (bins[1:] + bins[:-1]) / 2, np.mean(found, axis=0)
 
 

@@ -41,7 +41,7 @@ class Plan(NamedTuple):
 
 
 FULL = Plan(tuple(range(1, 21)), (0.01, 0.03, 0.1, 0.2, 0.3, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 5.0, 10.0, 30.0), (0.95, 0.8, 0.6))
-SMALL = Plan((1, 3, 8), (0.03, 1.0, 30.0), (0.8, 0.6))
+SMALL = Plan((1, 2, 3, 8), (0.03, 1.0, 30.0), (0.8, 0.6))
 
 
 def measure(plan: Plan = FULL) -> xr.Dataset:
