@@ -47,8 +47,8 @@ def draw(data: dict[str, xr.Dataset]) -> Figure:
             band(axes, runs["time"][1:], runs[key].isel(time=slice(1, None)), color=f"C{k}", label=name)
         for axes, bins, what in ((panels[4], SPEEDS, "velocity"), (panels[5], DISTANCES, "position")):
             axes.plot(*of_snapshots(runs, bins, what), color=f"C{k}", label=name)
-    for axes, label in zip(panels, SERIES.values(), strict=False):
-        axes.set(xscale="log", yscale="log", xlabel="$t$ (s)", ylabel=label)
+    for axes, label, scale in zip(panels, SERIES.values(), ("log", "log", "linear", "linear"), strict=False):
+        axes.set(xscale="log", yscale=scale, xlabel="$t$ (s)", ylabel=label)
     panels[4].set(yscale="log", xlabel=r"$v_x / \sqrt{\langle v_x^2 \rangle}$", ylabel="probability density")
     panels[5].set(xlabel="$r / d$", ylabel="$g(r)$", ylim=(0, None))
     panels[0].legend()
