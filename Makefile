@@ -5,7 +5,7 @@ VENV := .venv/bin
 SNAKEMAKE := $(VENV)/snakemake --cores $(CORES)
 PYTEST := SLURM_CONF=/dev/null MPLBACKEND=Agg $(VENV)/python -m pytest -n $(CORES) --dist loadfile
 
-.PHONY: help figures preview report test test-full test-pages browser bench docs gallery prune lint lock clean
+.PHONY: help figures preview report test test-full test-pages coverage mutation browser bench docs gallery prune lint lock clean
 
 help:
 	@echo 'make figures    all figures at full size, into results/'
@@ -14,11 +14,13 @@ help:
 	@echo 'make test       all tests but the long ones'
 	@echo 'make test-full  all tests'
 	@echo 'make test-pages open the explorer in Chromium and datasets with ncdump (packages chromium and netcdf-bin)'
+	@echo 'make coverage   lines that tests run, kernels included (20 minutes)'
+	@echo 'make mutation   how many mistakes in collision and prediction the tests notice (20 minutes)'
 	@echo 'make bench      speed of the engine, into results/bench.csv'
 	@echo 'make docs       the documentation, into docs/_build/html'
 	@echo 'make gallery    copy final figures and tables into results/gallery/'
 	@echo 'make prune      remove runs that no study names any more, after a question (OVERLAYS=mine.yaml for more studies)'
-	@echo 'make lint       style of the code'
+	@echo 'make lint       style, types and spelling of the code, and the configurations'
 	@echo 'make lock       pin what pyproject.toml asks for (without the lock files: in its newest version)'
 	@echo 'make clean      remove caches; results and .venv stay'
 
@@ -41,6 +43,9 @@ test-full: .venv/.docs
 test-pages: browser .venv/.pages
 	$(PYTEST) -m pages -n 0 tests/pages
 
+mutation: .venv/.installed
+	$(VENV)/python tests/mutation/check.py --cores $(CORES)
+
 browser:
 	@missing=; for need in chromium:chromium ncdump:netcdf-bin; do \
 		command -v $${need%%:*} > /dev/null || missing="$$missing $${need##*:}"; done; \
@@ -62,6 +67,9 @@ prune: .venv/.installed
 lint: .venv/.installed
 	$(VENV)/ruff check .
 	$(VENV)/ruff format --check .
+	$(VENV)/mypy
+	$(VENV)/codespell $$(git ls-files | grep -v -e '^results/' -e '\.lock$$')
+	$(VENV)/python tests/check_config.py
 
 LOCK := .lock/bin/uv pip compile --quiet --universal --generate-hashes --no-emit-index-url --python-version 3.11 pyproject.toml
 
@@ -74,7 +82,7 @@ lock:
 	@rm -rf .lock
 
 clean:
-	rm -rf .lock .pytest_cache .ruff_cache .hypothesis .coverage htmlcov build dist docs/_build
+	rm -rf .lock .pytest_cache .ruff_cache .mypy_cache .hypothesis .coverage .coverage.* htmlcov build dist docs/_build
 	find . -name __pycache__ -not -path './.venv/*' -prune -exec rm -rf {} +
 
 .venv/.installed: requirements.lock pyproject.toml

@@ -180,7 +180,7 @@ class _Parser(argparse.ArgumentParser):
 
 def _parser() -> argparse.ArgumentParser:
     default = Scene()
-    scene = argparse.ArgumentParser(add_help=False)
+    scene = _Parser(add_help=False)
     scene.add_argument("--n", type=int, default=default.n_particles, help="number of particles")
     scene.add_argument("--area-fraction", type=float, default=default.area_fraction)
     scene.add_argument("--restitution", type=float, default=default.restitution)

@@ -140,7 +140,7 @@ def _values(run: xr.Dataset, times: Numbers, colour: str) -> Iterator[Numbers]:
 
 def _strips(run: xr.Dataset, times: Numbers, colouring: Colouring, width: int) -> Iterator[Picture]:
     """(STRIP, width, 3) picture of the clock, the scene and the colours for each frame."""
-    figure = Figure(figsize=(width / 100, STRIP / 100), dpi=100, layout="none")
+    figure = Figure(figsize=(width / 100, STRIP / 100), dpi=100, layout="none")  # type: ignore[arg-type]  # the stub knows it as a word of set_layout_engine only
     canvas = FigureCanvasAgg(figure)
     scene = f"$N = {run.attrs['n_particles']}$, $r = {run.attrs['restitution']:g}$, "
     scene += f"$t_c = $ {power_of_ten(run.attrs['contact_time'])} s"

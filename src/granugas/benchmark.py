@@ -60,7 +60,7 @@ def time_collisions(
     warm_up([replace(scene)])
     compile_s = time.perf_counter() - started
     start = equilibrate(scene, seed=seed, collisions_per_particle=equilibration)
-    engine = engine_of(scene, state_of(start), **effects)
+    engine: Any = engine_of(scene, state_of(start), **effects)
     engine.advance(begin)
     costs = []
     for _ in range(ROUNDS):
@@ -75,7 +75,7 @@ def time_span(scene: Scene, until: float, *, equilibration: float = 30.0, seed: 
     started = time.perf_counter()
     warm_up([replace(scene)])
     compile_s = time.perf_counter() - started
-    engine = engine_of(scene, state_of(equilibrate(scene, seed=seed, collisions_per_particle=equilibration)))
+    engine: Any = engine_of(scene, state_of(equilibrate(scene, seed=seed, collisions_per_particle=equilibration)))
     clock = time.process_time()
     engine.advance(until)
     cost = (time.process_time() - clock) / max(engine.collisions, 1) * 1e9

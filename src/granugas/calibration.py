@@ -11,12 +11,16 @@ import tempfile
 import time
 from dataclasses import asdict, dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from granugas.digest import kernel_cache_directory
 from granugas.scene import Scene
 from granugas.storage.files import replacing
+
+if TYPE_CHECKING:
+    from granugas.dynamics import Dynamics
 
 SIZES = (500, 5740, 79524)
 """Numbers of particles whose collisions are timed."""
@@ -85,7 +89,7 @@ def measure(sizes: tuple[int, ...] = SIZES, timed: int = TIMED) -> Calibration:
     return Calibration(tuple(sizes), tuple(costs), min(_start() for _ in range(3)), max(few - each * sizes[0], 0.0), each)
 
 
-def _melted(scene: Scene) -> tuple:
+def _melted(scene: Scene) -> tuple["Dynamics", Scene]:
     """An engine whose disks have collided some times, and its scene."""
     from granugas.dynamics import engine_of
     from granugas.equilibrate import on_lattice
@@ -96,14 +100,14 @@ def _melted(scene: Scene) -> tuple:
     return engine, scene
 
 
-def _collisions(engine, number: int) -> float:
+def _collisions(engine: "Dynamics", number: int) -> float:
     """ns for each of so many."""
     done, begun = engine.collisions, time.process_time()
     engine.advance(math.inf, number)
     return (time.process_time() - begun) / (engine.collisions - done) * 1e9
 
 
-def _sample(engine, scene: Scene, number: int = 5) -> float:
+def _sample(engine: "Dynamics", scene: Scene, number: int = 5) -> float:
     """Seconds of a sample: what a run asks its dynamics for, and writes down."""
     from granugas.record import Record
     from granugas.sampling import Limits, sampling_points
@@ -128,6 +132,7 @@ def _start() -> float:
 def _kept(path: Path) -> Calibration | None:
     try:
         values = json.loads(path.read_text())
-        return Calibration(**{key: tuple(value) if isinstance(value, list) else value for key, value in values.items()})
+        read: dict[str, Any] = {key: tuple(value) if isinstance(value, list) else value for key, value in values.items()}
+        return Calibration(**read)
     except (OSError, ValueError, TypeError, AttributeError):
         return None

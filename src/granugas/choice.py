@@ -101,8 +101,8 @@ def _choices(study: Study, error: float, of: str, machine: Calibration) -> Itera
 
 def _varied(run: Run, n: int, contact_time: float | None) -> Run:
     """A point of the grid with another N and t_c; one without contact duration, or of elastic disks, keeps what it has."""
-    kept = contact_time is None or max(run.scene.contact_times) == 0 or not run.scene.dissipates
-    times = run.scene.contact_time if kept else contact_time
+    varied = contact_time is not None and max(run.scene.contact_times) > 0 and run.scene.dissipates
+    times = contact_time if varied and contact_time is not None else run.scene.contact_time
     return replace(run, scene=replace(run.scene, n_particles=n, contact_time=times, lattice="auto"), realizations=(0,))
 
 

@@ -225,10 +225,10 @@ def page(table: pd.DataFrame) -> str:
         lines += ["", "## What does not hold", ""]
         lines += [f"- **{row.id}** ({row.verdict}): {row.claim} {row.remark}" for row in open_ones.itertuples()]
     for (name, section), rows in table.groupby([paper, "section"], sort=False):
-        lines += ["", f"## {PAPERS[name]}, section {section}", ""]
+        lines += ["", f"## {PAPERS[str(name)]}, section {section}", ""]
         lines += ["| id | claim | quantity | expected | measured | verdict | figure |", "|---|---|---|---|---|---|---|"]
         for row in rows.itertuples():
-            measured = f"{row.measured} ± {row.error}" if row.error else row.measured
+            measured = f"{row.measured!s} ± {row.error!s}" if row.error else row.measured
             cells = [row.id, row.claim, row.quantity, row.expected, measured, row.verdict, row.figure]
             lines.append(f"| {' | '.join(str(cell).replace('|', chr(92) + '|') for cell in cells)} |")
         lines += ["", "Bounds and tolerances:", ""]

@@ -179,7 +179,7 @@ def _soft_spheres(scene: "Scene") -> None:
         allowed = f"allowed is events with {', '.join(others)}: soft spheres are equal, smooth and free between contacts"
         raise SceneError("dynamics", scene.dynamics, allowed)
     longest = math.pi * scene.diameter / (FASTEST * scene.velocity_half_width)
-    contacts = {"": scene.contact_time, "wall_": scene.wall_contact_time or scene.contact_time}
+    contacts: dict[str, Any] = {"": scene.contact_time, "wall_": scene.wall_contact_time or scene.contact_time}
     for kind, contact_time in contacts.items():
         r = getattr(scene, f"{kind}restitution")
         if not 0 < contact_time < longest:

@@ -5,7 +5,7 @@ import math
 import sys
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import yaml
 from jsonschema import Draft202012Validator, ValidationError, validators
@@ -122,7 +122,7 @@ Validator = validators.extend(
 
 
 def _in_our_words(error: ValidationError) -> ConfigError:
-    path, value, schema = list(error.absolute_path), error.instance, error.schema
+    path, value, schema = list(error.absolute_path), cast(Any, error.instance), cast(Any, error.schema)
     if error.validator == "additionalProperties":
         known = schema.get("properties", {})
         key = next(k for k in value if k not in known and not _matches(k, schema))

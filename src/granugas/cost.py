@@ -37,7 +37,8 @@ COLUMNS = (
     *("collisions", "ns_per_collision"),
 )
 
-P, R = ParamSpec("P"), TypeVar("R")
+P = ParamSpec("P")
+R = TypeVar("R")
 
 
 @dataclass
@@ -61,7 +62,8 @@ class Cost:
     done: bool = False
 
     def __add__(self, other: "Cost") -> "Cost":
-        return Cost(*(getattr(self, one.name) + getattr(other, one.name) for one in fields(Cost)[:-1]), other.done)
+        names = [one.name for one in fields(Cost)[:-1]]
+        return Cost(**{name: getattr(self, name) + getattr(other, name) for name in names}, done=other.done)
 
     @property
     def ns_per_collision(self) -> float | None:

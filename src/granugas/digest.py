@@ -170,7 +170,7 @@ def _code(text: str) -> str:
     tree = ast.parse(text)
     for node in ast.walk(tree):
         if isinstance(body := getattr(node, "body", None), list):
-            node.body = [statement for statement in body if not _is_text(statement)]
+            node.body = [line for line in body if not _is_text(line)]  # type: ignore[attr-defined]  # it has one
     return ast.unparse(tree)
 
 

@@ -9,6 +9,7 @@ points, the worst by a factor 1.5); elsewhere by more. x = t_c / t_E(0) and tau 
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -174,10 +175,11 @@ def loss_at(scene: Scene) -> Callable[[Numbers], Numbers]:
     """l as a function of s = K^(-1/2): of smooth particles, of rough ones (`_loss_of_rough`), of r(u) at the mean of u."""
     smooth = (1 - scene.restitution**2) / (2 * scene.dimensions)
     if scene.material != "constant":
-        law = {
+        laws: dict[str, Callable[[Any], Any]] = {
             "viscoelastic": lambda u: theory.viscoelastic_restitution(u, scene.viscosity),
             "plastic": lambda u: theory.plastic_restitution(u, scene.restitution, scene.yield_velocity),
-        }[scene.material]
+        }
+        law = laws[scene.material]
         thermal = math.sqrt(math.pi * _temperature(scene))  # <u>, its square being distributed exponentially
         return lambda s: (1 - law(thermal / np.asarray(s)) ** 2) / (2 * scene.dimensions)
     whole = max(_loss_of_rough(scene) if scene.rough else smooth, 1e-12)

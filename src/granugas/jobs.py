@@ -46,7 +46,8 @@ class Job(NamedTuple):
 
     def last_words(self) -> str:
         """The last line of its log, "" where there is none."""
-        lines = [line for line in self.log.read_text(errors="replace").splitlines() if line.strip()]
+        text = self.log.read_text(errors="replace") if self.log else ""
+        lines = [line for line in text.splitlines() if line.strip()]
         return lines[-1].strip() if lines else ""
 
     def reason(self) -> str:
@@ -57,7 +58,7 @@ class Job(NamedTuple):
         return f"killed, perhaps for lack of memory; its last words: {said or 'none'}"
 
 
-class Terminal(logging.StreamHandler):
+class Terminal(logging.StreamHandler[TextIO]):
     """What the terminal shows of a job's warnings: the first of each kind at once, at the end how many more the log has.
 
     Warnings with the same words are of one kind, whatever the numbers in them: realizations of a job warn alike.

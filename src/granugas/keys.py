@@ -27,7 +27,7 @@ def integer(default: int, low: int, high: int, **how: bool) -> Any:
     """A key that holds an integer from `low` to `high`."""
 
     def check(key: str, value: Any) -> None:
-        if isinstance(value, bool) or not isinstance(value, Integral) or not low <= value <= high:
+        if isinstance(value, bool) or not isinstance(value, Integral) or not low <= int(value) <= high:
             raise SceneError(key, value, f"allowed is an integer from {low} to {high}")
 
     return _key(default, check, **how)

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from functools import wraps
 from itertools import cycle, product
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import matplotlib as mpl
 import numpy as np
@@ -115,18 +115,18 @@ def band(axes: Axes, x: xr.DataArray, y: xr.DataArray, *, spread: bool = True, *
         line: how the line is drawn.
     """
     logarithmic = axes.get_yscale() == "log"
-    x = x.mean("realization") if "realization" in x.dims else x
-    y = y.transpose("realization", "time").values
-    shown = ~np.isnan(y).any(axis=0)
+    at = (x.mean("realization") if "realization" in x.dims else x).values
+    values = y.transpose("realization", "time").values
+    shown = ~np.isnan(values).any(axis=0)
     if axes.get_xscale() == "log":
-        shown &= (x > 0).values
+        shown &= at > 0
     if logarithmic:
-        shown &= (y > 0).all(axis=0)
-    x, y = x.values[shown], y[:, shown]
-    mean = np.exp(np.log(y).mean(axis=0)) if logarithmic else y.mean(axis=0)
-    (drawn,) = axes.plot(x, mean, **line)
-    if spread and len(y) > 1:
-        axes.fill_between(x, y.min(axis=0), y.max(axis=0), color=drawn.get_color(), alpha=0.2, linewidth=0)
+        shown &= (values > 0).all(axis=0)
+    at, values = at[shown], values[:, shown]
+    mean = np.exp(np.log(values).mean(axis=0)) if logarithmic else values.mean(axis=0)
+    (drawn,) = axes.plot(at, mean, **line)
+    if spread and len(values) > 1:
+        axes.fill_between(at, values.min(axis=0), values.max(axis=0), color=drawn.get_color(), alpha=0.2, linewidth=0)
     return drawn
 
 
@@ -141,11 +141,12 @@ def power_line(curve: Line2D, window: tuple[float, float], power: float, factor:
         text: on the side away from the curve.
     """
     x = np.array([window[0], np.sqrt(window[0] * window[1]), window[1]])
-    y = factor * np.interp(x[0], *curve.get_data()) * (x / x[0]) ** power
-    axes = curve.axes
+    at, values = map(np.asarray, curve.get_data())
+    y = factor * np.interp(x[0], at, values) * (x / x[0]) ** power
+    axes = cast(Axes, curve.axes)
     axes.plot(x, y, color="0.35", linewidth=0.9)
     above, falling = factor > 1, power < 0
-    place = {"ha": "left" if above == falling else "right", "va": "bottom" if above else "top"}
+    place: dict[str, Any] = {"ha": "left" if above == falling else "right", "va": "bottom" if above else "top"}
     shift = 3 if above == falling else -3, 2 if above else -2
     axes.annotate(text, (x[1], y[1]), shift, textcoords="offset points", color="0.35", fontsize="small", **place)
 
@@ -318,8 +319,8 @@ def error_points(axes: Axes, values: xr.DataArray, **style: Any) -> None:
     (dim,) = set(values.dims) - {"realization"}
     mean, error = mean_and_error(values.transpose("realization", dim).values)
     shown = ~np.isnan(mean)
-    style = {"linestyle": "none", "markersize": 3.5, "markeredgewidth": 0.7, "elinewidth": 0.7, "capsize": 1.5} | style
-    axes.errorbar(values[dim].values[shown], mean[shown], np.nan_to_num(error[shown]), **style)
+    bars: dict[str, Any] = {"linestyle": "none", "markersize": 3.5, "markeredgewidth": 0.7, "elinewidth": 0.7, "capsize": 1.5}
+    axes.errorbar(values[dim].values[shown], mean[shown], np.nan_to_num(error[shown]), **bars | style)
 
 
 def by_contact_time(axes: Axes, values: xr.DataArray, **style: Any) -> None:
@@ -332,7 +333,7 @@ def by_contact_time(axes: Axes, values: xr.DataArray, **style: Any) -> None:
     """
     times = sorted(values["contact_time"].values, reverse=True)
     for t_c, colour, marker in zip(times, shades(len(times)), cycle(MARKERS), strict=False):
-        look = {"color": colour, "marker": marker, "markerfacecolor": "none", "label": power_of_ten(t_c)}
+        look: dict[str, Any] = {"color": colour, "marker": marker, "markerfacecolor": "none", "label": power_of_ten(t_c)}
         error_points(axes, values.sel(contact_time=t_c), **look | style)
 
 
@@ -347,10 +348,11 @@ def each_run(axes: Axes, values: xr.DataArray, branch: xr.DataArray, label: str,
         style: of both.
     """
     nu, values, branch = xr.broadcast(values["area_fraction"], values, branch)
-    style = {"linestyle": "none", "markeredgewidth": 0.7} | style
-    for name, look in (("fluid", {"markerfacecolor": "none", "label": label}), ("crystal", {})):
+    points: dict[str, Any] = {"linestyle": "none", "markeredgewidth": 0.7} | style
+    looks: dict[str, dict[str, Any]] = {"fluid": {"markerfacecolor": "none", "label": label}, "crystal": {}}
+    for name, look in looks.items():
         there = (branch == name).values
-        axes.plot(nu.values[there], values.values[there], **style | look)
+        axes.plot(nu.values[there], values.values[there], **points | look)
 
 
 def text_table(cells: Sequence[Sequence[str]], widths: Sequence[float], notes: Sequence[str] = ()) -> Figure:
@@ -363,7 +365,7 @@ def text_table(cells: Sequence[Sequence[str]], widths: Sequence[float], notes: S
     """
     line, right = 0.24, sum(widths)
     height = line * (len(cells) + 0.8 * len(notes) + 0.6)
-    figure = Figure(figsize=(right, height), layout="none")
+    figure = Figure(figsize=(right, height), layout="none")  # type: ignore[arg-type]  # the stub knows it as a word of set_layout_engine only
     axes = figure.add_axes((0, 0, 1, 1), xlim=(0, right), ylim=(height, 0))
     axes.axis("off")
     edges = np.cumsum([0, *widths])
@@ -386,15 +388,15 @@ def run_and_others(axes: Axes, x: xr.DataArray, y: xr.DataArray, **line: Any) ->
         x, y: over `realization` and `time`; x = 0 is left out.
         line: how the line is drawn.
     """
-    x, y = (values.transpose("realization", "time").values for values in (x, y))
-    shown = (x > 0).all(axis=0) & ~np.isnan(y).any(axis=0)
-    x, y = x[:, shown], y[:, shown]
-    (drawn,) = axes.plot(x[0], y[0], **line)
-    if len(x) > 1:
-        alike = np.allclose(x, x[0])
-        at = x[0] if alike else np.geomspace(x[1:, 0].max(), x[1:, -1].min(), x.shape[1])
-        others = y[1:] if alike else interpolated(x[1:], y[1:], at)
-        axes.fill_between(at, others.min(axis=0), others.max(axis=0), color=drawn.get_color(), alpha=0.12, linewidth=0.4)
+    at, of = (values.transpose("realization", "time").values for values in (x, y))
+    shown = (at > 0).all(axis=0) & ~np.isnan(of).any(axis=0)
+    at, of = at[:, shown], of[:, shown]
+    (drawn,) = axes.plot(at[0], of[0], **line)
+    if len(at) > 1:
+        alike = np.allclose(at, at[0])
+        along = at[0] if alike else np.geomspace(at[1:, 0].max(), at[1:, -1].min(), at.shape[1])
+        others = of[1:] if alike else interpolated(at[1:], of[1:], along)
+        axes.fill_between(along, others.min(axis=0), others.max(axis=0), color=drawn.get_color(), alpha=0.12, linewidth=0.4)
     return drawn
 
 
@@ -414,7 +416,13 @@ def cooling_views(points: Sequence[tuple[str, xr.Dataset]], title: str, axis_of_
     shear.set(xscale="log", xlabel="$C/N$", ylabel="$(K_x - K_z)/K$", ylim=(-1.05, 1.05))
     shear.axhline(0, color="0.6", linewidth=0.6, zorder=0)
     for place, ((label, runs), colour, marker) in enumerate(zip(points, shades(len(points)), cycle(MARKERS), strict=False)):
-        look = {"color": colour, "linewidth": 1.0, "marker": marker, "markerfacecolor": "white", "markeredgewidth": 0.7}
+        look: dict[str, Any] = {
+            "color": colour,
+            "linewidth": 1.0,
+            "marker": marker,
+            "markerfacecolor": "white",
+            "markeredgewidth": 0.7,
+        }
         look |= {"markevery": (5 * place, 40), "label": label}
         t, count, total = (runs[name] for name in (_clock(runs), "collisions_per_particle", "kinetic_energy"))
         difference = (runs["kinetic_energy_x"] - runs["kinetic_energy_y"]) / total

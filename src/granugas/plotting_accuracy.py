@@ -76,7 +76,12 @@ def curve_of(
     seen = gas[["relative_error", "relative_error_error"]].sel(observable=observable).assign(seconds=gas["cpu_seconds"])
     seen = seen.dropna("setting", how="any")
     names = [name(setting) for setting in seen["setting"].values] if name else []
-    return Curve(label, *(seen[k].values for k in ("seconds", "relative_error", "relative_error_error")), names, side)
+    return Curve(label, *_values(seen, "seconds"), names, side)
+
+
+def _values(seen: xr.Dataset, seconds: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Seconds, error and its uncertainty of a curve."""
+    return seen[seconds].values, seen["relative_error"].values, seen["relative_error_error"].values
 
 
 def contact_time(data: xr.Dataset) -> list[Curve]:
@@ -104,7 +109,7 @@ def sampling(data: xr.Dataset) -> list[Curve]:
 def equilibration(data: xr.Dataset) -> list[Curve]:
     """The velocities and the pressure of all gases; the knob is the number of collisions of a particle."""
     names = {"<v^4>/<v^2>^2": r"$\langle v^4 \rangle$", "P V/E": "$PV/E$"}
-    curves = []
+    curves: list[Curve] = []
     for key, case in product(names, data["case"].values):
         label = f"{names[key]}, " + case.replace("area fraction ", r"$\nu = ") + "$"
         curves.append(curve_of(data, key, label, None if curves else "{:g}".format, case=case))  # one set of names will do
@@ -119,11 +124,11 @@ def arithmetic(data: xr.Dataset) -> list[Curve]:
     """
     gas = data.squeeze("case")
     wrong = gas.sel(setting=(gas["relative_error"] > 0).any("observable"))
-    curves = []
+    curves: list[Curve] = []
     for setting in wrong["setting"].values:
         at = wrong.sel(setting=setting)
         seconds = np.full(at.sizes["observable"], float(at["cpu_seconds"]))
-        names = [] if curves else at["observable"].values
+        names = [] if curves else [str(name) for name in at["observable"].values]
         curves.append(
             Curve(str(setting), seconds, at["relative_error"].values, at["relative_error_error"].values, names, "right")
         )
@@ -132,19 +137,18 @@ def arithmetic(data: xr.Dataset) -> list[Curve]:
 
 def sizes(data: xr.Dataset) -> list[Curve]:
     """Everything that was looked at, by its bias; the knob is the number of disks N."""
-    curves = []
+    curves: list[Curve] = []
     for observable in data["observable"].values:
         seen = data.sel(observable=observable)
         names = [f"{n:g}" for n in seen["setting"].values] if not curves else []
-        values = (seen[key].values for key in ("cpu_seconds", "relative_error", "relative_error_error"))
-        curves.append(Curve(str(observable), *values, names))
+        curves.append(Curve(str(observable), *_values(seen, "cpu_seconds"), names))
     return curves
 
 
 def realizations(data: xr.Dataset, most: float) -> list[Curve]:
     """What to expect of the mean of K over more and more runs, up to `most` seconds: chance falls, the bias of N stays."""
     seen = data.sel(observable=[name for name in data["observable"].values if name.startswith("K ")][-1])
-    curves = []
+    curves: list[Curve] = []
     for n, one in seen.groupby("setting"):
         cost, bias, spread = (float(one[key].squeeze()) for key in ("cpu_seconds", "relative_error", "relative_spread"))
         runs = np.geomspace(1, max(most / cost, 1), 8)
@@ -227,7 +231,7 @@ def draw_knob(axes: Axes, curves: Sequence[Curve]) -> None:
         axes.axhline(goal, color="0.75", linewidth=0.7, zorder=0)
         axes.annotate(words, (0.995, goal), (0, 1), GOAL, "offset points", ha="right", color="0.5", fontsize=7)
     for k, (curve, marker) in enumerate(zip(curves, cycle(MARKERS), strict=False)):
-        look = {"color": f"C{k}", "marker": marker, "markersize": 3.8, "markeredgewidth": 0.8}
+        look: dict[str, Any] = {"color": f"C{k}", "marker": marker, "markersize": 3.8, "markeredgewidth": 0.8}
         axes.plot([], [], linewidth=0.6, label=curve.label, **look)
         _draw(axes, curve, look)
     axes.legend(fontsize=7)
@@ -240,7 +244,7 @@ def _draw(axes: Axes, curve: Curve, look: dict[str, Any]) -> None:
     axes.plot(curve.seconds, y, color=look["color"], linewidth=0.6, alpha=0.6)
     for there, face in ((certain, look["color"]), (~certain, "white")):
         up = np.where(inside, curve.uncertainty, 0)[there]
-        bars = {"elinewidth": 0.7, "capsize": 1.5, "linestyle": "none"}
+        bars: dict[str, Any] = {"elinewidth": 0.7, "capsize": 1.5, "linestyle": "none"}
         axes.errorbar(curve.seconds[there], y[there], [up * certain[there], up], markerfacecolor=face, **bars, **look)
     for place, value, there, name in zip(zip(curve.seconds, y, strict=True), curve.error, inside, curve.names, strict=False):
         words, side = (name, curve.side) if there else (f"{name}: {power_of_ten(float(f'{value:.1g}'))}", "right")

@@ -116,7 +116,7 @@ def draw_snapshots(
         draw_disks(axes, position[top], box, key["diameter"], colouring(shown[top]))
         axes.collections[0].set_antialiased(False)  # half the bytes
         marked = position[np.isinf(shown)] / key["diameter"]
-        axes.scatter(*marked.T, s=20, facecolors="none", edgecolors=COLOURS[-1], linewidths=0.6)
+        axes.scatter(marked[:, 0], marked[:, 1], s=20, facecolors="none", edgecolors=COLOURS[-1], linewidths=0.6)
         count = np.interp(time, times(run), run["collisions_per_particle"])
         axes.set_title(f"$t = {time:g}$ s, $C/N = {count:.{0 if count > 10 else 1}f}$")
     colouring.bar(figure, ax=figure.axes, location="bottom", shrink=0.5, aspect=40, pad=0.02)

@@ -13,8 +13,8 @@ from typing import Any
 
 from granugas.configuration import MISSING, ConfigError, Written, check_structure, unknown, with_defaults
 from granugas.resources import memory_at_hand, memory_of
-from granugas.runs import DEFAULTS, Run, digest_of
-from granugas.scene import SCENE_KEYS, Scene, SceneError, check_value
+from granugas.runs import Run, digest_of
+from granugas.scene import DEFAULTS, SCENE_KEYS, Scene, SceneError, check_value
 
 FLOAT_KEYS = {key for key, value in DEFAULTS.items() if isinstance(value, float)}
 
@@ -241,7 +241,7 @@ def _study(name: str, block: Mapping[str, Any], seed: int, filmed: bool) -> Stud
     if factors and block["realizations_per_job"] > 1:
         allowed = f"allowed is 1 where clusters are analysed ({where}.distance_factors)"
         raise ConfigError(f"{where}.realizations_per_job", block["realizations_per_job"], allowed)
-    common = {
+    common: dict[str, Any] = {
         "seed": seed,
         "until": until,
         "samples": _samples(f"{where}.samples", block["samples"], until),
@@ -300,7 +300,7 @@ def _scenes(where: str, grid: Mapping[str, Any], settings: Mapping[str, Any]) ->
     from granugas.initial import check_lattice
 
     places = {key: f"{where}.grid.{key}" for key in SCENE_KEYS} | {key: f"{where}.scene.{key}" for key in settings}
-    axes = {key: _axis(places, key, value) for key, value in (grid | settings).items()}
+    axes = {key: _axis(places, key, value) for key, value in {**grid, **settings}.items()}
     times = axes.get("contact_time", (DEFAULTS["contact_time"],))
     for point in itertools.product(*axes.values()):
         values = DEFAULTS | dict(zip(axes, point, strict=True))

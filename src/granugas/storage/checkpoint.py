@@ -54,7 +54,7 @@ class Checkpoint:
         begin = time.monotonic()
         try:
             with replacing(self._path) as temporary, open(temporary, "wb") as file:
-                np.savez(file, key=np.array(self._key), names=np.array(list(arrays), dtype=str), **arrays)
+                np.savez(file, key=np.array(self._key), names=np.array(list(arrays), dtype=str), **arrays)  # type: ignore[arg-type]  # none is named as an option
         except OSError as error:
             logger.warning("no checkpoint: %s", error)
         took = time.monotonic() - begin

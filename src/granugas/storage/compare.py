@@ -3,6 +3,7 @@
 import math
 from dataclasses import dataclass
 from statistics import NormalDist
+from typing import Any, cast
 
 import numpy as np
 import xarray as xr
@@ -88,7 +89,7 @@ def compare(first: xr.Dataset, second: xr.Dataset) -> Comparison:
     unlabelled = {*first.dims, *second.dims} - ({*first.indexes} & {*second.indexes})
     first, second = xr.align(first, second, join="inner", exclude=unlabelled | averaged)
     found, count = [], 0
-    for name in (name for name in first.data_vars if name in second.data_vars and _counts(name)):
+    for name in (name for name in map(str, first.data_vars) if name in second.data_vars and _counts(name)):
         a, b = first[name], second[name]
         shapes = [{dim: size for dim, size in data.sizes.items() if dim not in averaged} for data in (a, b)]
         if shapes[0] != shapes[1]:
@@ -111,13 +112,14 @@ def _in_standard_errors(a: xr.DataArray, b: xr.DataArray) -> xr.DataArray:
     means = [data.mean("realization") for data in (a, b)]
     variances = [data.var("realization", ddof=1) for data in (a, b)]
     numbers = [data.notnull().sum("realization") for data in (a, b)]
-    scale = np.maximum(abs(means[0]), abs(means[1])) ** 2
+    scale = _larger(*means) ** 2
     relative = (sum(variances) / 2 / scale.where(scale > 0)).fillna(0.0)
     alike = [dim for dim in ("time", "particle") if dim in relative.dims]
     typical = scale * (relative.median(alike) if alike else relative)
     errors = [((n - 1) * variance + typical) / n**2 for variance, n in zip(variances, numbers, strict=True)]
     total = errors[0] + errors[1] + ROUNDING**2 * scale
-    freedom = total**2 / sum(error**2 / n for error, n in zip(errors, numbers, strict=True)).clip(min=np.finfo(float).tiny)
+    squares: Any = sum(error**2 / n for error, n in zip(errors, numbers, strict=True))
+    freedom = total**2 / squares.clip(min=np.finfo(float).tiny)
     t = abs(means[0] - means[1]) / np.sqrt(total.where(total > 0, 1.0))
     return _normal_deviate(t, freedom.clip(1.0, 1e6))
 
@@ -132,9 +134,14 @@ def _relative(a: xr.DataArray, b: xr.DataArray) -> xr.DataArray:
     if _is_text(a) or _is_text(b):
         return (a.astype(str) != b.astype(str)).astype(float)
     a, b = a.astype(float), b.astype(float)
-    larger = np.maximum(abs(a), abs(b))
+    larger = _larger(a, b)
     sizes = (abs(a - b) / larger.where(larger > 0, 1.0)).where(a != b, 0.0)  # infinity agrees with infinity
     return sizes.where(a.isnull() == b.isnull(), math.inf).fillna(0.0)
+
+
+def _larger(a: xr.DataArray, b: xr.DataArray) -> xr.DataArray:
+    """The larger of two magnitudes."""
+    return cast(xr.DataArray, np.maximum(abs(a), abs(b)))
 
 
 def _is_text(data: xr.DataArray) -> bool:
@@ -168,7 +175,7 @@ def _parameters(first: xr.Dataset, second: xr.Dataset) -> list[str]:
 def _only_in_one(first: xr.Dataset, second: xr.Dataset) -> list[str]:
     remarks = []
     for one, other, which in ((first, second, "first"), (second, first, "second")):
-        alone = sorted(name for name in one.variables if name not in other.variables and _counts(name))
+        alone = sorted(name for name in map(str, one.variables) if name not in other.variables and _counts(name))
         remarks += [f"only in the {which}: {', '.join(alone)}"] if alone else []
     for key in sorted({*first.indexes} & {*second.indexes} - {"realization"}):
         a, b = first.indexes[key], second.indexes[key]

@@ -164,7 +164,7 @@ def _table(path: Path) -> xr.Dataset:
     return xr.Dataset.from_dataframe(pd.read_csv(path))
 
 
-def _content_of(named: Mapping[str, Any]) -> dict[str, Any]:
+def _content_of(named: Mapping[Any, Any]) -> dict[str, Any]:
     return {name: value for name, value in named.items() if not str(name).startswith(NOT_CONTENT)}
 
 

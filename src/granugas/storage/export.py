@@ -2,7 +2,7 @@
 
 import math
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
@@ -97,7 +97,7 @@ def _frame(run: xr.Dataset, name: str, time: float) -> "Frame":
     return Frame(n, np.diag(sides), np.array(periodic), {"time": time}, columns)
 
 
-def _of_the_run(run: xr.Dataset, key: str, otherwise: object = math.nan) -> object:
+def _of_the_run(run: xr.Dataset, key: str, otherwise: object = math.nan) -> Any:
     """A parameter: a variable where runs of a study differ in it, else an attribute."""
     return run[key].item() if key in run.variables else run.attrs.get(key, otherwise)
 

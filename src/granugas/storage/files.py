@@ -54,7 +54,8 @@ def chunk_sizes(shape: Sequence[int]) -> tuple[int, ...]:
 def encoding(dataset: xr.Dataset) -> dict[str, dict[str, Any]]:
     """How each variable is stored: numbers compressed in chunks, coordinates without a mark of what is missing."""
     stored: dict[str, dict[str, Any]] = {}
-    for name, variable in dataset.variables.items():
+    for key, variable in dataset.variables.items():
+        name = str(key)
         stored[name] = {"_FillValue": None} if name in dataset.coords else {}
         if variable.size and variable.ndim and variable.dtype.kind in "fiub":
             stored[name] |= {"zlib": True, "complevel": 1, "chunksizes": chunk_sizes(variable.shape)}

@@ -54,11 +54,12 @@ def pool(parts: Iterable[xr.Dataset], keys: Sequence[str]) -> xr.Dataset:
     cells = [list(_cells(place, part, axes)) for place, part in placed]
     _refuse_duplicates(cells, axes)
     coordinates = _own_coordinates(parts, grid)
-    sizes = {dim: max(part.sizes.get(dim, 0) for part in parts) for dim in {dim for part in parts for dim in part.dims}}
-    sizes |= coordinates.sizes
+    dims = {str(dim) for part in parts for dim in part.dims}
+    sizes = {dim: max(part.sizes.get(dim, 0) for part in parts) for dim in dims}
+    sizes |= {str(dim): size for dim, size in coordinates.sizes.items()}
     sizes |= {key: len(values) for key, values in axes.items()}
 
-    names = dict.fromkeys(name for part in parts for name in part.data_vars if name not in grid)
+    names = dict.fromkeys(str(name) for part in parts for name in part.data_vars if name not in grid)
     pooled = {name: _fill(name, parts, cells, grid, sizes, coordinates) for name in names}
     return describe(xr.Dataset(pooled, {**coordinates.coords, **axes}, attributes))
 
@@ -173,15 +174,17 @@ def _fill(
     """One variable of all parts, in an array that is allocated once."""
     holders = [(part, where) for part, where in zip(parts, cells, strict=True) if name in part]
     variables = [part.variables[name] for part, _ in holders]
-    own = [dim for dim in variables[0].dims if dim not in grid]
+    own = [str(dim) for dim in variables[0].dims if dim not in grid]
     shape = [sizes[dim] for dim in (*grid, *own)]
     filled = sum(len(where) * prod(part.sizes[dim] for dim in own) for part, where in holders)
     pooled = _empty(shape, [variable.dtype for variable in variables], filled == prod(shape))
     for variable, (part, where) in zip(variables, holders, strict=True):
         window = _window([_positions(part, dim, coordinates) for dim in own])
         for position, selection in where:
+            place: Any = (*position, ...)
+            within: Any = (*window, ...)
             piece = variable.isel(selection, missing_dims="ignore").transpose(*own)
-            pooled[(*position, ...)][(*window, ...)] = piece.values
+            pooled[place][within] = piece.values
     attributes = {
         key: value
         for key, value in variables[0].attrs.items()

@@ -55,7 +55,7 @@ def write_positions(dataset: xr.Dataset, path: str | Path) -> None:
         header.to_netcdf(temporary, engine="netcdf4", encoding=encoding(header))
         with netCDF4.Dataset(temporary, "a") as file:
             for dim in {*trajectory.dims} - {*file.dimensions}:
-                file.createDimension(dim, trajectory.sizes[dim])
+                file.createDimension(str(dim), trajectory.sizes[dim])
             packed = _variable(file, trajectory, "u4", fill_value=LEVELS)
             packed.set_auto_maskandscale(False)
             packed.setncatts(attributes)
@@ -85,10 +85,12 @@ def read_positions(path: str | Path) -> xr.Dataset:
         return xr.open_dataset(path, engine="netcdf4", decode_times=False)
 
 
-def _variable(file: netCDF4.Dataset, data: xr.DataArray, kind: str, **options: Any) -> netCDF4.Variable:
+def _variable(file: netCDF4.Dataset, data: xr.DataArray, kind: str, **options: Any) -> "netCDF4.Variable[Any]":
     """A compressed variable of an open file, still empty."""
     chunks = chunk_sizes(data.shape)
-    return file.createVariable(data.name, kind, data.dims, chunksizes=chunks, zlib=True, complevel=1, **options)
+    return file.createVariable(
+        str(data.name), kind, tuple(map(str, data.dims)), chunksizes=chunks, zlib=True, complevel=1, **options
+    )
 
 
 def _codes(trajectory: xr.DataArray, sides: np.ndarray, scale: float) -> Iterator[np.ndarray]:

@@ -9,6 +9,8 @@ from numba import njit
 from granugas.dynamics.events.collisions import collide
 from granugas.dynamics.events.effects.constant import Constant, Elastic
 from granugas.dynamics.events.effects.contact_time import ContactTime
+from granugas.dynamics.events.effects.unequal import PARTICLES, Unequal
+from granugas.dynamics.events.memory import Table, allocate
 
 NOW = 0.25
 
@@ -69,6 +71,28 @@ def test_momentum_that_is_passed_on(gas_of):
         stress = dp.T @ l
         tally = gas.tally
         np.testing.assert_allclose(tally.rows["stress"][0], stress, rtol=0, atol=1e-13)
+
+
+@pytest.mark.parametrize("dimensions", [1, 2, 3])
+def test_unequal_particles_in_every_dimension(dimensions, gas_of):
+    """Each changes by its share; losses by the reduced mass; what is passed on by both radii, at the time of the collision."""
+    rng, r, rows = np.random.default_rng(7), 0.6, allocate(2, PARTICLES)
+    rows["radius"], rows["mass"] = [0.35, 0.45], [0.8, 1.7]
+    m, m_12 = rows["mass"][:, None], 0.8 * 1.7 / 2.5
+    n = rng.normal(size=dimensions)
+    n /= np.linalg.norm(n)
+    before = rng.normal(size=(2, dimensions))
+    before -= np.outer([0, 1], ((before[1] - before[0]) @ n + 1.3) * n)  # they approach at 1.3
+    position = 3.0 + np.array([0 * n, 0.8 * n])
+    sizes = Unequal(Table(rows), 0.9)
+    gas = gas_of(position - NOW * before, before, (6.0, 7.0, 8.0)[:dimensions], rule=Constant(r), sizes=sizes)
+    collided(gas, NOW)
+    dv = velocities(gas) - before
+    np.testing.assert_allclose(m * dv, m_12 * (1 + r) * -1.3 * np.array([n, -n]), rtol=0, atol=1e-14)
+    stress = np.outer(m[0] * dv[0], 0.8 * n)  # the partner's has both signs changed, and its radius is in the sum
+    np.testing.assert_allclose(gas.tally.rows["stress"][0], stress, rtol=0, atol=1e-14)
+    assert gas.tally.loss == pytest.approx(0.5 * m_12 * (1 - r**2) * 1.3**2, rel=1e-13)
+    assert gas.tally.loss_time == pytest.approx(gas.tally.loss * NOW, rel=1e-13)
 
 
 def test_counters_and_clocks(gas_of):

@@ -71,6 +71,15 @@ def test_in_touch_and_approaching_by_rounding_they_do_not(distance):
         assert delay((distance, 0.0), (-noise, 1.0)) == math.inf
 
 
+@pytest.mark.parametrize("reach", [1.0, 0.5])
+@pytest.mark.parametrize("speed", [1.0, 100.0])
+def test_rounding_ends_at_1e_14_of_the_speeds(speed, reach):
+    """Of the root of the sum of their squares, whatever the size of the disks."""
+    for approach, wanted in ((1.1e-14, 0.0), (0.9e-14, math.inf)):
+        u = (-approach * speed, 0.0)
+        assert contact_delay((reach, 0.0), u, reach**2, speed**2, FOREVER) == wanted
+
+
 def test_a_delay_beyond_what_counts_may_be_left_out_but_no_other():
     rng = np.random.default_rng(5)
     for _ in range(300):
