@@ -43,6 +43,15 @@ test-full: .venv/.docs
 test-pages: browser .venv/.pages
 	$(PYTEST) -m pages -n 0 tests/pages
 
+PLAIN := cells collisions flight predict vectors walls gravity rough collision_models contacts soft_contact softspheres lrv dsmc plate
+
+coverage: .venv/.installed
+	rm -f .coverage .coverage.*
+	$(PYTEST) --cov --cov-report= tests/unit tests/docs
+	NUMBA_DISABLE_JIT=1 $(PYTEST) --cov --cov-append --cov-report= --timeout 120 \
+		$(PLAIN:%=tests/unit/dynamics/test_%.py) tests/unit/analysis || echo 'Plain Python is slow: what took long was left out.'
+	$(VENV)/coverage report --fail-under 95
+
 mutation: .venv/.installed
 	$(VENV)/python tests/mutation/check.py --cores $(CORES)
 

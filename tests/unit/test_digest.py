@@ -156,8 +156,8 @@ def test_an_effect_counts_where_a_scene_calls_for_it():
 
 def test_an_experiment_depends_on_those_that_it_draws_on():
     assert sources._with_imported("granugas.experiments.column") == {"granugas.experiments.column"}
-    both = {"granugas.experiments.effects", "granugas.experiments.effects_cost"}
-    assert sources._with_imported("granugas.experiments.effects_cost") == both
+    three = {f"granugas.experiments.{name}" for name in ("effects", "effects_checks", "effects_cost")}
+    assert sources._with_imported("granugas.experiments.effects_cost") == three
     assert len({sources.experiment(name) for name in ("effects", "effects_cost", "column")}) == 3
 
 

@@ -5,7 +5,8 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from granugas.analysis.theory import energy_after_collisions, homogeneous_cooling
-from granugas.plotting import THEORY, cooling_views, grid_points, power_of_ten, styled
+from granugas.plotting import THEORY, grid_points, power_of_ten, styled
+from granugas.plotting_papers import cooling_views
 
 STUDIES = ("cluster1999_contact_times",)
 

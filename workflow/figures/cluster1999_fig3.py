@@ -5,7 +5,8 @@ from matplotlib.figure import Figure
 
 from granugas.analysis.growth import local_exponent
 from granugas.analysis.theory import collisions_until, homogeneous_cooling
-from granugas.plotting import PAGE, THEORY, band, grid_points, mark_growth, mark_panels, power_line, styled, times
+from granugas.plotting import PAGE, THEORY, band, grid_points, mark_panels, power_line, styled, times
+from granugas.plotting_papers import mark_growth
 
 STUDIES = ("cluster1999_large",)
 

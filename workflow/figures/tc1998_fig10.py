@@ -4,7 +4,8 @@ import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
-from granugas.plotting import PAGE, blue_green_red, draw_disks, grid_points, shades, styled
+from granugas.plotting import PAGE, draw_disks, grid_points, shades, styled
+from granugas.plotting_papers import blue_green_red
 
 STUDIES = ("tc1998_n22960",)
 

@@ -5,7 +5,8 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from granugas.analysis.theory import rms_speed
-from granugas.plotting import PAGE, blue_green_red, draw_disks, grid_points, power_of_ten, styled
+from granugas.plotting import PAGE, draw_disks, grid_points, power_of_ten, styled
+from granugas.plotting_papers import blue_green_red
 
 STUDIES = ("tc1998_contact_times",)
 

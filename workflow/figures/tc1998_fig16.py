@@ -3,7 +3,8 @@
 import xarray as xr
 from matplotlib.figure import Figure
 
-from granugas.plotting import elastic_fractions, grid_points, shades, styled
+from granugas.plotting import grid_points, shades, styled
+from granugas.plotting_papers import elastic_fractions
 
 STUDIES = ("tc1998_restitutions",)
 

@@ -10,7 +10,8 @@ import numpy as np
 import xarray as xr
 
 from granugas.dynamics.events.engine import Engine
-from granugas.experiments.effects import FEW, PLAIN, ROWS, start_of
+from granugas.experiments.effects import FEW, ROWS
+from granugas.experiments.effects_checks import PLAIN, start_of
 
 ALONE = ("the time of a collision",)
 

@@ -10,7 +10,7 @@ import xarray as xr
 
 from granugas.analysis import theory
 from granugas.dynamics.events.effects import modules_of
-from granugas.experiments import effects
+from granugas.experiments import effects, effects_checks
 from granugas.storage.variables import describe
 
 TABLE = Path(__file__).parents[3] / "workflow" / "tables" / "effects.py"
@@ -86,7 +86,7 @@ def test_drift_and_balance_see_a_push(monkeypatch):
 
 
 def test_momentum_across_walls_does_not_count():
-    before = effects.start_of(effects.PLAIN)
+    before = effects_checks.start_of(effects.PLAIN)
     after = effects.replace(before, velocity=before.velocity + np.array([0.0, 0.1]))
     assert effects.drift(before, after, np.array([True, False])) == 0
     assert effects.drift(before, after, np.array([True, True])) > 0.1
