@@ -71,7 +71,7 @@ class Calibration:
         return self.collision(SIZES[1]) / REFERENCE
 
 
-REFERENCE_MACHINE = Calibration(SIZES, (310.0, REFERENCE, 600.0), 1.75, 1.3e-4, 2e-7)
+REFERENCE_MACHINE = Calibration(SIZES, (300.0, REFERENCE, 600.0), 1.75, 1.3e-4, 2e-7)
 """That of REFERENCE, for those who plan for machines on which nothing can be measured."""
 
 
