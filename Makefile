@@ -5,7 +5,7 @@ VENV := .venv/bin
 SNAKEMAKE := $(VENV)/snakemake --cores $(CORES)
 PYTEST := SLURM_CONF=/dev/null MPLBACKEND=Agg $(VENV)/python -m pytest -n $(CORES) --dist loadfile
 
-.PHONY: help figures preview report test test-full test-pages coverage mutation browser bench docs gallery prune lint lock clean
+.PHONY: help figures preview report test test-full test-pages browser test-slurm batch-system coverage mutation bench docs gallery prune lint lock clean
 
 help:
 	@echo 'make figures    all figures at full size, into results/'
@@ -14,6 +14,7 @@ help:
 	@echo 'make test       all tests but the long ones'
 	@echo 'make test-full  all tests'
 	@echo 'make test-pages open the explorer in Chromium and datasets with ncdump (packages chromium and netcdf-bin)'
+	@echo 'make test-slurm run the workflow through a SLURM of its own (packages slurmctld, slurmd, slurm-client and munge)'
 	@echo 'make coverage   lines that tests run, kernels included (20 minutes)'
 	@echo 'make mutation   how many mistakes in collision and prediction the tests notice (20 minutes)'
 	@echo 'make bench      speed of the engine, into results/bench.csv'
@@ -38,7 +39,7 @@ test: .venv/.installed
 	$(PYTEST)
 
 test-full: .venv/.docs
-	$(PYTEST) -m "not pages"
+	$(PYTEST) -m "not pages and not slurm"
 
 test-pages: browser .venv/.pages
 	$(PYTEST) -m pages -n 0 tests/pages
@@ -59,6 +60,14 @@ browser:
 	@missing=; for need in chromium:chromium ncdump:netcdf-bin; do \
 		command -v $${need%%:*} > /dev/null || missing="$$missing $${need##*:}"; done; \
 		test -z "$$missing" || { echo "make test-pages needs packages of the distribution: apt-get install$$missing"; exit 1; }
+
+test-slurm: batch-system .venv/.slurm
+	$(PYTEST) -m slurm -n 0 tests/slurm
+
+batch-system:
+	@missing=; for need in slurmctld:slurmctld slurmd:slurmd sbatch:slurm-client munged:munge; do \
+		PATH="$$PATH:/usr/sbin" command -v $${need%%:*} > /dev/null || missing="$$missing $${need##*:}"; done; \
+		test -z "$$missing" || { echo "make test-slurm needs packages of the distribution: apt-get install$$missing"; exit 1; }
 
 bench: .venv/.installed
 	$(VENV)/python benchmarks/speed.py
@@ -88,6 +97,7 @@ lock:
 	$(LOCK) --extra workflow --extra export --extra test --extra develop -o requirements.lock
 	$(LOCK) --extra docs -c requirements.lock -o requirements-docs.lock
 	$(LOCK) --group pages -c requirements.lock -o requirements-pages.lock
+	$(LOCK) --group slurm -c requirements.lock -o requirements-slurm.lock
 	@rm -rf .lock
 
 clean:
@@ -105,6 +115,10 @@ clean:
 
 .venv/.docs: .venv/.installed requirements-docs.lock
 	@$(VENV)/python -m pip install --quiet --disable-pip-version-check --require-hashes --no-deps -r requirements-docs.lock
+	@touch $@
+
+.venv/.slurm: .venv/.installed requirements-slurm.lock
+	@$(VENV)/python -m pip install --quiet --disable-pip-version-check --require-hashes --no-deps -r requirements-slurm.lock
 	@touch $@
 
 .venv/.pages: .venv/.installed requirements-pages.lock

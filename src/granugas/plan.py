@@ -114,6 +114,29 @@ def run_seconds(run: Run, end: End, machine: Calibration) -> float:
     return machine.start_seconds + len(run.realizations) * work
 
 
+def equilibration_seconds(run: Run, machine: Calibration) -> float:
+    """Of the job that makes the start states of a run."""
+    return machine.start_seconds + _collisions_before(run) * collision_seconds(run.scene.at_start(), machine)
+
+
+def analysis_seconds(run: Run, factors: int, machine: Calibration) -> float:
+    """Of the cluster analysis of a run with so many S_c."""
+    positions = run.scene.n_particles * (run.samples["count"] + 1)
+    return machine.start_seconds + positions * (ANALYSED + WITH_FACTOR * factors) * machine.slowness
+
+
+def pooling_seconds(jobs: int, machine: Calibration) -> float:
+    """Of pooling a study of so many jobs."""
+    return (POOLING + POOLED * jobs) * machine.slowness
+
+
+def dataset_bytes(run: Run) -> float:
+    """Of the file of a run."""
+    n, axes, samples = run.scene.n_particles, run.scene.dimensions, run.samples["count"] + 1
+    of_snapshots = len(run.snapshots) * n * (16 * axes + 24)
+    return DATASET + len(run.realizations) * (OF_SAMPLE * samples + of_snapshots + 8 * n)
+
+
 def motion_seconds(scene: Scene, end: End, machine: Calibration) -> float:
     """Of the motion of all particles from t = 0 to the end, by what moves them.
 
@@ -149,12 +172,10 @@ def _of_study(study: Study, output: Path, machine: Calibration, engine: str, see
     for run in study.runs:
         whole += _of_run(run, ends[run.scene], output, machine, engine, seen)
         if run.address in clusters and _to_do(output / f"clusters/{clusters[run.address]}.nc", seen):
-            positions = run.scene.n_particles * (run.samples["count"] + 1)
-            of_each = (ANALYSED + WITH_FACTOR * len(study.distance_factors)) * machine.slowness
-            whole += Forecast(seconds=machine.start_seconds + positions * of_each, disk=ANALYSIS)
+            whole += Forecast(seconds=analysis_seconds(run, len(study.distance_factors), machine), disk=ANALYSIS)
     if _to_do(output / f"studies/{study.name}.nc", seen):
-        jobs = len(study.runs)
-        whole += Forecast(seconds=(POOLING + POOLED * jobs) * machine.slowness, disk=sum(_dataset_bytes(r) for r in study.runs))
+        disk = sum(dataset_bytes(run) for run in study.runs)
+        whole += Forecast(seconds=pooling_seconds(len(study.runs), machine), disk=disk)
     return replace(whole, errors=errors, biases=biases)
 
 
@@ -171,15 +192,20 @@ def _of_run(run: Run, end: End, output: Path, machine: Calibration, engine: str,
         collisions=end.collisions * n / 2 * realizations,
         seconds=run_seconds(run, end, machine),
         memory=memory,
-        disk=_dataset_bytes(run) + 4 * n * run.scene.dimensions * (run.samples["count"] + 1) * run.keep_positions,
+        disk=dataset_bytes(run) + 4 * n * run.scene.dimensions * (run.samples["count"] + 1) * run.keep_positions,
     )
     if not _to_do(output / f"states/{run.state_address}.nc", seen):
         return found
-    before = run.equilibration * EQUILIBRATION_ROUNDS * n / 2 * realizations
-    seconds = machine.start_seconds + before * collision_seconds(run.scene.at_start(), machine)
     return found + Forecast(
-        collisions=before, seconds=seconds, disk=n * realizations * (OF_STATE[0] + OF_STATE[1] * run.scene.dimensions)
+        collisions=_collisions_before(run),
+        seconds=equilibration_seconds(run, machine),
+        disk=n * realizations * (OF_STATE[0] + OF_STATE[1] * run.scene.dimensions),
     )
+
+
+def _collisions_before(run: Run) -> float:
+    """Of pairs, in the start states of a run."""
+    return run.equilibration * EQUILIBRATION_ROUNDS * run.scene.n_particles / 2 * len(run.realizations)
 
 
 def _errors(study: Study, ends: Mapping[Scene, End]) -> dict[str, float]:
@@ -196,12 +222,6 @@ def _errors(study: Study, ends: Mapping[Scene, End]) -> dict[str, float]:
 def _largest(several: Iterable[Mapping[str, float]]) -> dict[str, float]:
     several = list(several)
     return {name: max(one[name] for one in several) for name in several[0]}
-
-
-def _dataset_bytes(run: Run) -> float:
-    n, axes, samples = run.scene.n_particles, run.scene.dimensions, run.samples["count"] + 1
-    of_snapshots = len(run.snapshots) * n * (16 * axes + 24)
-    return DATASET + len(run.realizations) * (OF_SAMPLE * samples + of_snapshots + 8 * n)
 
 
 def _to_do(path: Path, seen: set[Path]) -> bool:

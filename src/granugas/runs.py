@@ -5,6 +5,7 @@ import json
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 from granugas.scene import DEFAULTS, SCENE_KEYS, START_KEYS, Scene
@@ -49,7 +50,7 @@ class Run:
     keep_motion: bool = False
     max_collisions: int | None = None
 
-    @property
+    @cached_property
     def address(self) -> str:
         """Name of the run's files: what people look for, then a digest of everything that decides the result."""
         times = self.scene.contact_times
@@ -67,7 +68,7 @@ class Run:
         kept = "_xy" if self.keep_positions else ""
         return f"{name}_{digest_of(self._stream | content)}{kept}"
 
-    @property
+    @cached_property
     def state_address(self) -> str:
         """Name of the start state's file, which runs with other r, t_c or limits share."""
         scene = self.scene.as_dict()
@@ -88,7 +89,7 @@ class Run:
     def _stream(self) -> dict[str, Any]:
         return {"seed": self.seed, "realizations": self.realizations, "equilibration": self.equilibration}
 
-    @property
+    @cached_property
     def cost(self) -> float:
         """Expected s on one core, to plan with: from the collisions in an elastic gas, in homogeneous cooling, in clusters."""
         from granugas.analysis.enskog import enskog_rate

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, fields
+from dataclasses import dataclass, fields
 from typing import Any
 
 from granugas.combinations import refuse_what_does_not_go_together
@@ -183,7 +183,7 @@ class Scene:
 
     def as_dict(self) -> dict[str, Any]:
         """All keys and values, as they were given."""
-        return asdict(self)
+        return {key: getattr(self, key) for key in SCENE_KEYS}
 
 
 SCENE_KEYS = tuple(key.name for key in fields(Scene))

@@ -11,6 +11,10 @@ rule clusters:
     params:
         distance_factors=lambda wildcards: CLUSTERS[wildcards.clusters][1],
         analysis=ANALYSIS,
+    group: lambda wildcards: together("clusters", batch.of_clusters(*CLUSTERS[wildcards.clusters]))
+    resources:
+        mem_mb=lambda wildcards, attempt: batch.megabytes(memory_of(CLUSTERS[wildcards.clusters][0]), attempt),
+        runtime=lambda wildcards, attempt: batch.minutes(batch.of_clusters(*CLUSTERS[wildcards.clusters]), attempt),
     script:
         "../scripts/clusters.py"
 
@@ -28,6 +32,9 @@ rule pool:
     params:
         grid_keys=lambda wildcards: STUDIES.studies[wildcards.study].grid_keys,
         storage=STORAGE,
+    resources:
+        mem_mb=lambda wildcards, attempt: batch.megabytes(batch.pooled_size(STUDIES.studies[wildcards.study].runs), attempt),
+        runtime=lambda wildcards, attempt: batch.minutes(batch.of_pool(STUDIES.studies[wildcards.study].runs), attempt),
     wildcard_constraints:
         study="|".join(STUDIES.studies),
     script:

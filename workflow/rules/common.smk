@@ -2,17 +2,19 @@
 import os
 import sys
 import time
+from functools import cache
 from pathlib import Path
 
 import yaml
 
-from granugas import digest, studies
+from granugas import batch, digest, studies
 from granugas.configuration import ConfigError, refuse_duplicate_keys
 from granugas.cost import entries, renew_table, summary
 from granugas.dynamics.events.effects import modules_of
 from granugas.explored import explored
 from granugas.jobs import Job, claim, damaged, date_now, failures, pass_on_termination, tell_progress, warm_up
 from granugas.report import entry_of
+from granugas.resources import memory_of
 
 HERE = Path(workflow.current_basedir.get_path_or_uri(secret_free=True)).parents[1]  # also where another workflow uses this one
 STARTED = time.time()
@@ -61,9 +63,21 @@ if workflow.is_main_process and not {"-n", "--dry-run", "--dryrun"} & {*sys.argv
         print(f"{number} files in {OUTPUT} are dated in the future (was the clock set back?): corrected.", file=sys.stderr)
 
 
-def physics(run):
-    """The digest of what decides a run's numbers, its start state included."""
-    return digest.physics(modules_of(run.scene, run.scene.at_start()))
+@cache
+def physics(scene):
+    """The digest of what decides the numbers of a scene's runs, their start states included."""
+    return digest.physics(modules_of(scene, scene.at_start()))
+
+
+def together(what, seconds):
+    """The group of a job that is too short to go to a batch system alone; none where the profile makes no groups."""
+    kind = batch.kind(seconds) if workflow.group_settings.group_components else None
+    return kind and f"{what}_{kind}"
+
+
+def runs_alone(wildcards):
+    """Whether nothing may run beside an experiment."""
+    return studies.runs_alone(EXPERIMENTS / f"{wildcards.experiment}.py")
 
 
 def datasets(names, experiments):

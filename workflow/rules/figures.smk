@@ -20,6 +20,8 @@ for name, needed in STUDIES.figures.items():
             f"{OUTPUT}/logs/figures/{name}.log",
         params:
             formulas=FORMULAS,
+        group:
+            "figures" if "cost" not in DRAWN_TABLES.get(drawing, ()) else None
         script:
             "../scripts/draw.py"
 

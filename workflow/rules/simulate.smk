@@ -10,6 +10,10 @@ rule equilibrate:
         run=lambda wildcards: STATES[wildcards.state],
         physics=lambda wildcards: digest.physics(modules_of(STATES[wildcards.state].scene.at_start())),
     priority: lambda wildcards: STATES[wildcards.state].cost
+    group: lambda wildcards: together("states", batch.of_states(STATES[wildcards.state]))
+    resources:
+        mem_mb=lambda wildcards, attempt: batch.megabytes(memory_of(STATES[wildcards.state]), attempt),
+        runtime=lambda wildcards, attempt: batch.minutes(batch.of_states(STATES[wildcards.state]), attempt),
     script:
         "../scripts/equilibrate.py"
 
@@ -24,12 +28,16 @@ rule simulate:
         f"{OUTPUT}/logs/simulate/{{run}}.log",
     params:
         run=lambda wildcards: RUNS[wildcards.run],
-        physics=lambda wildcards: physics(RUNS[wildcards.run]),
+        physics=lambda wildcards: physics(RUNS[wildcards.run].scene),
         keeping=lambda wildcards: KEEPING[wildcards.run],
         checkpoints=f"{OUTPUT}/checkpoints",
     wildcard_constraints:
         run=".+_xy",
     priority: lambda wildcards: RUNS[wildcards.run].cost
+    group: lambda wildcards: together("runs", batch.of_run(RUNS[wildcards.run]))
+    resources:
+        mem_mb=lambda wildcards, attempt: batch.megabytes(memory_of(RUNS[wildcards.run]), attempt),
+        runtime=lambda wildcards, attempt: batch.minutes(batch.of_run(RUNS[wildcards.run]), attempt),
     script:
         "../scripts/simulate.py"
 
@@ -50,6 +58,8 @@ rule experiment:
     params:
         physics=lambda wildcards: digest.experiment(wildcards.experiment),
         small=STUDIES.small_experiments,
-    threads: lambda wildcards: workflow.cores if studies.runs_alone(EXPERIMENTS / f"{wildcards.experiment}.py") else 1
+    threads: lambda wildcards: workflow.cores if runs_alone(wildcards) else 1
+    resources:
+        slurm_extra=lambda wildcards: "--exclusive" if runs_alone(wildcards) else "",
     script:
         "../scripts/experiment.py"
