@@ -23,8 +23,14 @@ COLUMNS, HEIGHT = 2, 2.35
 CERTAIN = 2.0
 """An error of so many times its own standard error is more than chance; others have open symbols."""
 
+NAMED_POWERS = (-2, -3, -5, -8, -12)
+"""Of ten: contact durations whose points have a name."""
+
 GOAL = ("axes fraction", "data")
 """Coordinates of the words beside a goal."""
+
+LEAST = 1e-6
+"""Error below which arithmetic changes nothing."""
 
 OUTSIDE = 1.6
 """How near to the edge of the axis what lies outside is drawn, as a factor."""
@@ -87,12 +93,16 @@ def _values(seen: xr.Dataset, seconds: str) -> tuple[np.ndarray, np.ndarray, np.
 def contact_time(data: xr.Dataset) -> list[Curve]:
     """K and the clusters of the first size at the last look, K of the others; the knob is t_c."""
     end, (first, *others) = f"{data.attrs['looks'][-1]:g} s", data["case"].values
+
+    def name(t_c: float) -> str:
+        return power_of_ten(t_c) if round(math.log10(t_c)) in NAMED_POWERS else ""
+
     names = {"K": "$K$", "<M>": r"$\langle M \rangle$", "M_max": r"$M_{\max}$"}
     curves = [
-        curve_of(data, f"{key} at {end}", f"{symbol}, ${first}$", power_of_ten if key == "K" else None, case=first)
+        curve_of(data, f"{key} at {end}", f"{symbol}, ${first}$", name if key == "K" else None, case=first)
         for key, symbol in names.items()
     ]
-    return curves + [curve_of(data, f"K at {end}", f"$K$, ${case}$", power_of_ten, case=case) for case in others]
+    return curves + [curve_of(data, f"K at {end}", f"$K$, ${case}$", name, case=case) for case in others]
 
 
 def sampling(data: xr.Dataset) -> list[Curve]:
@@ -120,10 +130,12 @@ def arithmetic(data: xr.Dataset) -> list[Curve]:
     """A curve for each setting instead, where these cost nearly the same: its points are the observables.
 
     Args:
-        data: over one case, setting and observable; settings without any error, which are the truth, are left out.
+        data: over one case, setting and observable; settings without any error, which are the truth, are left out, and
+            observables that none of them changes.
     """
     gas = data.squeeze("case")
-    wrong = gas.sel(setting=(gas["relative_error"] > 0).any("observable"))
+    seen = gas.sel(observable=(gas["relative_error"] > LEAST).any("setting"))
+    wrong = seen.sel(setting=(seen["relative_error"] > 0).any("observable"))
     curves: list[Curve] = []
     for setting in wrong["setting"].values:
         at = wrong.sel(setting=setting)
