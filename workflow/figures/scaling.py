@@ -11,7 +11,6 @@ from granugas.plotting import PAGE, mark_panels, styled
 SECTION = "Cost"
 STUDIES = ()
 EXPERIMENTS = ("scaling",)
-TABLES = ("cost",)
 
 
 def rounds(axes: Axes, cost: xr.DataArray, along: str) -> None:
@@ -35,10 +34,10 @@ def beside(axes: Axes, x: xr.DataArray, y: xr.DataArray, label: str) -> None:
 
 @styled
 def draw(data: dict[str, xr.Dataset]) -> Figure:
-    """ns per collision against (a) N, (b) area fraction, (c) time while clusters grow, (d) t_c; (e) all jobs by rule."""
+    """ns per collision against (a) N, (b) area fraction, (c) time while clusters grow, (d) t_c."""
     timed = data["scaling"]
-    figure = Figure(figsize=(PAGE, 7.2))
-    panels = size, fraction, clustering, contact, rules = [*figure.subplot_mosaic("ab;cd;ee").values()]
+    figure = Figure(figsize=(PAGE, 5.2))
+    panels = size, fraction, clustering, contact = figure.subplots(2, 2).ravel()
     rounds(size, timed["cpu_by_size"], "n_particles")
     size.set(xscale="log", xlabel="$N$")
     rounds(fraction, timed["cpu_by_area_fraction"], "area_fraction")
@@ -50,11 +49,7 @@ def draw(data: dict[str, xr.Dataset]) -> Figure:
     contact.set(xscale="log", xlabel="$t_c$ (s)", ylim=(0, 1.15 * float(timed["cpu_by_contact_time"].max())))
     contact.set_xticks(10.0 ** np.arange(-12, -1, 2))
     beside(contact, timed["contact_time"], timed["run_collisions"], "$C/N$ at the end")
-    for axes in panels[:4]:
+    for axes in panels:
         axes.set_ylabel("time of a collision (ns)")
-    minutes = data["cost"]["cpu_seconds"].groupby(data["cost"]["rule"]).sum().sortby(lambda sums: sums) / 60
-    rules.barh(minutes["rule"], minutes)
-    rules.set(xscale="log", xlabel="processor time of all jobs (min)")
-    rules.tick_params(axis="y", which="both", length=0, labelsize="small")
     mark_panels(*panels)
     return figure
