@@ -28,7 +28,7 @@ SIDE, STRIP = 800, 96
 RATE = 20
 """Frames a second."""
 
-LIMIT = 8e6
+LIMIT = 7.5e6
 """Bytes that a film may have, about."""
 
 ENCODER = ["-preset", "fast", "-crf", "20", "-threads", "1", "-movflags", "+faststart", "-f", "mp4"]
