@@ -109,23 +109,19 @@ def main() -> int:
     with multiprocessing.get_context("fork").Pool(chosen.cores, maxtasksperchild=1) as pool:
         for module in CHECKED:
             source = _file_of(module).read_text(encoding="utf-8")
-            if is_noticed_in(pool, [(module, source)])[0]:
+            if pool.apply(is_noticed, [(module, source)]):
                 raise SystemExit(f"{module}: the tests fail without a mutant")
             mutants = mutants_of(source)[:: chosen.every]
-            noticed = is_noticed_in(pool, [(module, mutant.text) for mutant in mutants])
-            for mutant, seen in zip(mutants, noticed, strict=True):
+            noticed = []
+            for mutant, seen in zip(mutants, pool.imap(is_noticed, [(module, mutant.text) for mutant in mutants]), strict=True):
+                noticed.append(seen)
                 if not seen:
-                    print(f"{module}:{mutant.line}: not noticed: {mutant.was}  ->  {mutant.now}")
+                    print(f"{module}:{mutant.line}: not noticed: {mutant.was}  ->  {mutant.now}", flush=True)
             share = sum(noticed) / len(mutants)
             good = good and share >= WANTED
             print(f"{module}: {sum(noticed)} of {len(mutants)} mutants noticed ({share:.1%})", flush=True)
     print(f"{(time.monotonic() - began) / 60:.0f} minutes")
     return 0 if good else 1
-
-
-def is_noticed_in(pool, mutants: list[tuple[str, str]]) -> list[bool]:
-    """`is_noticed` of each, in processes of the pool."""
-    return pool.map(is_noticed, mutants, chunksize=1)
 
 
 if __name__ == "__main__":
