@@ -6,8 +6,8 @@ from pathlib import Path
 from workflow.project import Project
 
 STUDY = {
-    "grid": {"n_particles": 100, "area_fraction": 0.3, "restitution": [0.9, 1.0], "contact_time": 1.0e-5},
-    "until": {"collisions_per_particle": 50_000},  # some seconds
+    "grid": {"n_particles": 100, "area_fraction": [0.3, 0.32], "restitution": 1.0, "contact_time": 1.0e-5},
+    "until": {"collisions_per_particle": 50_000},  # some seconds, of disks that do not cool
     "samples": {"count": 10},
 }
 
