@@ -71,7 +71,7 @@ def test_a_number_beside_theory_is_told(measured):
 
 def test_drift_and_balance_see_a_push(monkeypatch):
     """Every particle a thousandth of v_rms faster along x at the end: momentum drifts by that, and energy is not balanced."""
-    state = effects.Engine.state
+    state = effects_checks.Engine.state
 
     def pushed(engine):
         found = state(engine)
@@ -79,7 +79,7 @@ def test_drift_and_balance_see_a_push(monkeypatch):
             found.velocity[:, 0] += 1e-3 * math.sqrt(2 * effects.HOT)
         return found
 
-    monkeypatch.setattr(effects.Engine, "state", pushed)
+    monkeypatch.setattr(effects_checks.Engine, "state", pushed)
     momentum, balance = effects.conservation(effects.PLAIN, 1.0)
     assert momentum == pytest.approx(1e-3, rel=1e-6)
     assert balance == pytest.approx(1e-6, rel=1e-3)
