@@ -155,7 +155,7 @@ class SoftSpheres:
         return taken
 
     def observe(self, state: State, tally: Tally | None = None, interval: float = 0.0) -> dict[str, float]:
-        """Elastic and dissipated energy, and with walls what these feel, at a sample.
+        """Elastic energy, and with walls what these feel, at a sample.
 
         Args:
             state: now.

@@ -9,6 +9,7 @@ import xarray as xr
 from granugas.analysis.accuracy import in_large_systems
 from granugas.analysis.clusters import find_clusters
 from granugas.analysis.growth import window_exponents
+from granugas.analysis.observables import kinetic_energy
 from granugas.equilibrate import equilibrate
 from granugas.scene import Scene
 from granugas.simulate import simulate
@@ -104,8 +105,9 @@ def _run(scene: Scene, realization: int, plan: Plan) -> xr.Dataset:
     run = simulate(scene, last, state=start, samples=samples, snapshots=plan.looks, progress=False)
     sizes = find_clusters(run, distance_factors=DISTANCE_FACTORS)["mean_cluster_size"].isel(time=slice(1, None))
     exponents = [_exponents(sizes.sel(distance_factor=factor), plan) for factor in DISTANCE_FACTORS]
-    energies = (run["velocity"] ** 2).sum(["particle", "axis"]) / 2 / (scene.n_particles * scene.energy_per_mass)
-    values = {f"K at {t:g} s": energy for t, energy in zip(plan.looks, energies.values, strict=True)}
+    unit = scene.n_particles * scene.energy_per_mass
+    looked = zip(plan.looks, run["velocity"].values, strict=True)
+    values = {f"K at {t:g} s": float(kinetic_energy(velocity).sum()) / unit for t, velocity in looked}
     values["exponent of <M>"] = exponents[DISTANCE_FACTORS.index(CHOSEN)][plan.moved.index(1.0)]
     values["P V/E at r = 1"] = float(elastic["reduced_pressure"][-1])
     return xr.Dataset(
