@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 import xarray as xr
 
-from granugas.analysis.accuracy import in_large_systems
+from granugas.analysis.accuracy import in_large_systems, mean_error
 from granugas.analysis.clusters import find_clusters
 from granugas.analysis.growth import window_exponents
 from granugas.analysis.observables import kinetic_energy
@@ -73,15 +73,13 @@ def measure(plan: Plan = FULL) -> xr.Dataset:
 def _size(n: int, plan: Plan) -> xr.Dataset:
     """All realizations with n disks."""
     runs = xr.concat([_run(Scene(n, **GAS), k, plan) for k in range(plan.realizations[n])], "realization")
-    root = np.sqrt(runs.sizes["realization"])
-    spread = runs.std("realization", ddof=1)
     return xr.Dataset(
         {
             "measured": runs["value"].mean("realization"),
-            "measured_error": spread["value"] / root,
-            "measured_spread": spread["value"],
+            "measured_error": mean_error(runs["value"]),
+            "measured_spread": runs["value"].std("realization", ddof=1),
             "exponents": runs["exponents"].mean("realization"),
-            "exponents_error": spread["exponents"] / root,
+            "exponents_error": mean_error(runs["exponents"]),
             "cpu_seconds": runs["cpu_seconds"].median("realization"),
         }
     )
