@@ -30,5 +30,5 @@ def test_runs_go_side_by_side_whatever_memory_they_ask_for(editable_copy: Projec
 
 def test_a_dry_run_shows_no_groups(project: Project):
     project.configure(studies={"small": STUDY}, figures=["study_small"])
-    said = project.build("--dry-run", "--quiet", "host", "--", "results/studies/small.nc")
+    said = project.build("--dry-run", "--quiet", "host", "--", "results/figures/study_small.png")
     assert "mem_mb=" in said and "runtime=" in said and "Group job" not in said

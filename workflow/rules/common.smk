@@ -36,11 +36,12 @@ DRAWINGS, DRAWN_TABLES = (names_in(HERE / "workflow/figures") for names_in in (s
 FIRST_TO_ASK = STUDIES.first_to_ask()
 TABLES, CLAIMS = (STUDIES.possible(studies.figures_in(HERE / f"workflow/{kind}")) for kind in ("tables", "claims"))
 MEASURED = {kind: studies.experiments_in(HERE / f"workflow/{kind}") for kind in ("tables", "claims")}
-STYLE = [digest.SOURCES / name for name in ("plotting.py", "plotting_papers.py", "snapshots.py", "granugas.mplstyle")]
+STYLE = [*sorted(digest.SOURCES.glob("plotting*.py")), digest.SOURCES / "snapshots.py", digest.SOURCES / "granugas.mplstyle"]
 ANALYSIS = digest.digest(digest.ANALYSIS)
 FORMULAS = digest.digest(["granugas.analysis.*"])
 STORAGE = digest.digest(["granugas.storage.*"])
 EXPLORED = explored(STUDIES)
+GROUPED = bool(workflow.group_settings.group_components)  # only a profile for a batch system makes groups
 
 if STUDIES.left_out and workflow.is_main_process:
     for name, missing in STUDIES.left_out.items():
@@ -71,7 +72,7 @@ def physics(scene):
 
 def together(what, seconds):
     """The group of a job that is too short to go to a batch system alone; none where the profile makes no groups."""
-    kind = batch.kind(seconds) if workflow.group_settings.group_components else None
+    kind = batch.kind(seconds) if GROUPED else None
     return kind and f"{what}_{kind}"
 
 
