@@ -70,6 +70,8 @@ ROOM = 2**25
 def digest(modules: Iterable[str]) -> str:
     """Hexadecimal SHA-256 of what the named modules do: their syntax trees without docstrings and comments.
 
+    It stays in the environment, where a process started by this one finds it while no file differs: trees of all take 0.4 s.
+
     Args:
         modules: full names (`granugas.scene`); `package.*` means the package and everything below it. Neither order nor
             repetition counts.
@@ -77,9 +79,17 @@ def digest(modules: Iterable[str]) -> str:
     Raises:
         ModuleNotFoundError: a name without a source file.
     """
+    texts = [(name, path.read_text("utf-8")) for name, path in sorted({item for of in modules for item in _source_files(of)})]
+    known = f"GRANUGAS_DIGEST_{_sha256(texts)}"
+    if known not in os.environ:
+        os.environ[known] = _sha256((name, _code(text)) for name, text in texts)
+    return os.environ[known]
+
+
+def _sha256(texts: Iterable[tuple[str, str]]) -> str:
     total = hashlib.sha256()
-    for name, path in sorted({item for module in modules for item in _source_files(module)}):
-        total.update(f"{name}\0{_code(path.read_text(encoding='utf-8'))}\0".encode())
+    for name, text in texts:
+        total.update(f"{name}\0{text}\0".encode())
     return total.hexdigest()
 
 

@@ -2,6 +2,7 @@
 
 import ctypes
 import fcntl
+import gc
 import logging
 import os
 import re
@@ -24,6 +25,10 @@ from granugas.scene import Scene
 from granugas.storage.damage import DamagedFile, check, is_complete
 
 PR_SET_PDEATHSIG = 1
+
+RARELY = 500_000
+"""Objects between two searches for cycles among them, in a job: searching what was imported is a third of a small job's time,
+and at its end once more."""
 
 SKEW = 2.0
 """s by which the clocks of a file server and of this machine may differ."""
@@ -94,6 +99,7 @@ def logged(path: str | Path) -> Iterator[Cost]:
     """
     if sys.platform == "linux":
         ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
+    gc.set_threshold(RARELY)
     terminal = Terminal()
     try:
         Path(path).parent.mkdir(parents=True, exist_ok=True)
@@ -114,6 +120,7 @@ def logged(path: str | Path) -> Iterator[Cost]:
     finally:
         terminal.finish(path)
     logging.getLogger("granugas").info("done")
+    gc.freeze()
 
 
 def claim(output: str | Path) -> None:

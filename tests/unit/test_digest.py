@@ -260,6 +260,19 @@ def test_the_kernels_of_these_sources_are_used(cache, monkeypatch, before):
     assert os.environ["NUMBA_CACHE_DIR"] == str(kernel_cache_directory())
 
 
+def test_a_process_takes_what_the_one_that_started_it_found_while_the_files_are_the_same(package, monkeypatch):
+    found = {}
+    for text in ("A = 1", "A = 1  # said differently", "A = 2"):
+        (package / "initial.py").write_text(text)
+        environment = {**os.environ}
+        found[text] = digest(["granugas.initial"])
+        (known,) = {*os.environ} - {*environment}
+        monkeypatch.setenv(known, "from elsewhere")
+        assert digest(["granugas.initial"]) == "from elsewhere"
+    one, same, other = found.values()
+    assert one == same != other
+
+
 @pytest.mark.parametrize("first", ["import numba", ""])
 def test_numba_takes_the_folder_even_when_it_was_imported_before(cache, first):
     program = f"{first}\nimport granugas.digest as d\nd.use_kernel_cache()\nimport numba\nprint(numba.config.CACHE_DIR)"

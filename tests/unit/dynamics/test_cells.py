@@ -7,15 +7,8 @@ import pytest
 from gases import lattice_gas
 from numba import njit
 
-from granugas.dynamics.events.cells import (
-    enter_cell,
-    leave_cell,
-    list_ahead,
-    list_around,
-    nearest_image,
-    steps_between,
-    wrapped,
-)
+from granugas.dynamics.events import cells
+from granugas.dynamics.events.cells import enter_cell, leave_cell, list_ahead, list_around
 from granugas.dynamics.events.engine import Engine
 from granugas.dynamics.events.state import NOBODY
 from granugas.dynamics.events.tables import NARROWEST
@@ -157,6 +150,21 @@ def test_disks_enter_and_leave(gas_of):
         assert i not in [j for inside in members(arrays).values() for j in inside]
         enter(gas, i, *rng.integers(0, gas.grid.cells))
         check_lists(arrays)
+
+
+@njit
+def wrapped(k, n):
+    return cells.wrapped(k, n)
+
+
+@njit
+def steps_between(k, m, n):
+    return cells.steps_between(k, m, n)
+
+
+@njit
+def nearest_image(separation, length):
+    return cells.nearest_image(separation, length)
 
 
 def test_steps_across_the_edge():

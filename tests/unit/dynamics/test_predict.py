@@ -5,13 +5,19 @@ import math
 import numpy as np
 import pytest
 from gases import lattice_gas
+from numba import njit
 
+from granugas.dynamics.events import predict
 from granugas.dynamics.events.engine import Engine
-from granugas.dynamics.events.predict import contact_delay
 from granugas.dynamics.events.state import NOBODY
 from granugas.scene import Scene
 
 FOREVER = 1.0e300
+
+
+@njit(error_model="numpy")
+def contact_delay(r, u, reach_2, speed_2, longest):
+    return predict.contact_delay(r, u, reach_2, speed_2, longest)
 
 
 def delay(r, u, longest=FOREVER):

@@ -5,15 +5,14 @@ import pytest
 from numba import njit
 
 from granugas.dynamics.events import vectors
-from granugas.dynamics.events.composition import inline
 
 
-@inline
+@njit
 def _first_less_second(a, b):
     return a - 2 * b
 
 
-@inline
+@njit
 def _sum_of_three(a, b, c):
     return a + 2 * b + 3 * c
 
