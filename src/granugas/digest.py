@@ -175,6 +175,7 @@ def _source_files(module: str) -> list[tuple[str, Path]]:
     return [(path.relative_to(SOURCES).as_posix(), path) for path in paths]
 
 
+@cache
 def _code(text: str) -> str:
     """The code of a source text in one canonical form."""
     tree = ast.parse(text)

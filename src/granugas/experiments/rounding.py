@@ -16,7 +16,7 @@ from granugas.scene import Scene
 
 COOLING = Scene(378, 0.226725, restitution=0.9, contact_time=1e-5, lattice="triangular")
 SCENES = (replace(COOLING, restitution=1.0, contact_time=0.0), COOLING)
-SEED, REALIZATIONS, COPIES = 1998, 8, 4
+SEED = 1998
 
 STEP, STOPS = 0.5, 240
 """Between two looks, in collisions per particle of a homogeneous gas, and how many of them."""
@@ -26,7 +26,17 @@ CHANGES = ("last bit", "order")
 """What is changed in a copy: every coordinate by one unit in its last place, or the numbers that the particles have."""
 
 
-def measure() -> xr.Dataset:
+class Plan(NamedTuple):
+    """How much is measured: realizations of each gas, and copies of each run with either change."""
+
+    realizations: int
+    copies: int
+
+
+FULL, SMALL = Plan(8, 4), Plan(3, 2)
+
+
+def measure(plan: Plan = FULL) -> xr.Dataset:
     """Runs, and copies of each that begin as near to it as double precision can tell.
 
     Returns:
@@ -34,8 +44,8 @@ def measure() -> xr.Dataset:
         change (one of CHANGES) and copy as well: separation, the root mean square distance from the run by d,
         copy_kinetic_energy and copy_collisions_per_particle. All runs of one restitution are looked at at the same times.
     """
-    starts = [state_of(equilibrate(SCENES[0], seed=SEED, realization=k)) for k in range(REALIZATIONS)]
-    gases = [xr.concat([_compare(scene, start, k) for k, start in enumerate(starts)], "realization") for scene in SCENES]
+    starts = [state_of(equilibrate(SCENES[0], seed=SEED, realization=k)) for k in range(plan.realizations)]
+    gases = [xr.concat([_compare(scene, start, k, plan.copies) for k, start in enumerate(starts)], "realization") for scene in SCENES]
     data = xr.concat(gases, "restitution").assign_coords(restitution=[scene.restitution for scene in SCENES])
     return data.assign_attrs(
         {key: getattr(COOLING, key) for key in ("n_particles", "area_fraction", "contact_time", "diameter")}
@@ -91,14 +101,14 @@ def stops(restitution: float) -> np.ndarray:
     return collisions if loss == 0 else np.expm1(loss * collisions) / loss
 
 
-def _compare(scene: Scene, start: State, realization: int) -> xr.Dataset:
+def _compare(scene: Scene, start: State, realization: int, n_copies: int) -> xr.Dataset:
     """One run and its copies."""
     n, tau = scene.n_particles, stops(scene.restitution)
     rate = float(enskog_rate(scene.area_fraction, kinetic_energy(start.velocity).sum() / n, scene.diameter))
     rng = np.random.default_rng([SEED, realization])
     run = follow(scene, start, tau / rate)
     copies = []
-    for _ in range(COPIES):
+    for _ in range(n_copies):
         order = rng.permutation(n)
         other = follow(scene, reordered(start, order), tau / rate)
         copies.append(
@@ -116,5 +126,5 @@ def _compare(scene: Scene, start: State, realization: int) -> xr.Dataset:
             "copy_collisions_per_particle": table(lambda path: path.collisions),
             "enskog_rate": rate,
         },
-        {"change": list(CHANGES), "copy": np.arange(COPIES), "stop": np.arange(STOPS + 1)},
+        {"change": list(CHANGES), "copy": np.arange(n_copies), "stop": np.arange(STOPS + 1)},
     )
