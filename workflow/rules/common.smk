@@ -43,6 +43,11 @@ STORAGE = digest.digest(["granugas.storage.*"])
 EXPLORED = explored(STUDIES)
 GROUPED = bool(workflow.group_settings.group_components)  # only a profile for a batch system makes groups
 
+# Under its default limit of 100 starts a second Snakemake looks at all waiting jobs once a second for each job that ever ended.
+STARTS = workflow.scheduling_settings and workflow.scheduling_settings.max_jobs_per_timespan
+if STARTS and (STARTS.max_jobs, STARTS.timespan) == (100, 1):
+    workflow.scheduling_settings.max_jobs_per_timespan = None
+
 if STUDIES.left_out and workflow.is_main_process:
     for name, missing in STUDIES.left_out.items():
         print(f"Left out: {name} needs {', '.join(missing)}, not in the configuration.", file=sys.stderr)
