@@ -43,11 +43,6 @@ STORAGE = digest.digest(["granugas.storage.*"])
 EXPLORED = explored(STUDIES)
 GROUPED = bool(workflow.group_settings.group_components)  # only a profile for a batch system makes groups
 
-# Under its default limit of 100 starts a second Snakemake looks at all waiting jobs once a second for each job that ever ended.
-STARTS = workflow.scheduling_settings and workflow.scheduling_settings.max_jobs_per_timespan
-if STARTS and (STARTS.max_jobs, STARTS.timespan) == (100, 1):
-    workflow.scheduling_settings.max_jobs_per_timespan = None
-
 if STUDIES.left_out and workflow.is_main_process:
     for name, missing in STUDIES.left_out.items():
         print(f"Left out: {name} needs {', '.join(missing)}, not in the configuration.", file=sys.stderr)
@@ -152,3 +147,6 @@ def begin(jobs):
     if scenes := [run.scene for run in (*runs.values(), *started)]:
         warm_up(f"{OUTPUT}/logs/warm_up.log", scenes, workflow.cores)
     tell_progress({job: run.cost for job, run in runs.items()}, STARTED)
+    # Under a limit of starts a second (100 by default) Snakemake looks at all waiting jobs again each second for each job that
+    # ever ended: half a core after some hundred.
+    workflow.scheduler.job_rate_limiter = None
