@@ -77,8 +77,8 @@ def together(what, seconds):
 
 
 def runs_alone(wildcards):
-    """Whether nothing may run beside an experiment."""
-    return studies.runs_alone(EXPERIMENTS / f"{wildcards.experiment}.py")
+    """Whether nothing may run beside an experiment; the times of a small plan mean nothing."""
+    return not STUDIES.small_experiments and studies.runs_alone(EXPERIMENTS / f"{wildcards.experiment}.py")
 
 
 def datasets(names, experiments):

@@ -9,9 +9,7 @@ from granugas.storage.variables import describe
 
 @pytest.fixture(scope="module")
 def measured():
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(volumes, "REALIZATIONS", 1)
-        return describe(volumes.measure()).isel(realization=0)
+    return describe(volumes.measure(realizations=1)).isel(realization=0)
 
 
 def test_volumes_add_up_to_the_box(measured):
