@@ -63,7 +63,7 @@ class Plan(NamedTuple):
     names: tuple[str, ...] | None = None
 
 
-FEW = ("elastic disks", "contact duration", "walls, gravity", "rough disks, friction")
+FEW = ("elastic disks", "contact duration", "walls, gravity")
 """Rows for a preview."""
 
 FULL, SMALL = Plan(30.0, 1.0), Plan(5.0, 0.05, FEW)

@@ -7,7 +7,9 @@ vector of the kernels (vectors.py); a field of several vectors in a record is a 
 compiled code: with NUMBA_DISABLE_JIT=1 the same kernels run as plain Python on numpy columns, where every index is checked.
 """
 
+import hashlib
 import operator
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -105,7 +107,8 @@ class _RowsType(types.Type):
     def __init__(self, dtype: np.dtype) -> None:
         self.dtype = dtype
         layout = ",".join(f"{name}:{dtype[name].base.str}{dtype[name].shape}@{dtype.fields[name][1]}" for name in dtype.names)
-        super().__init__(name=f"{type(self).__name__}({layout};{dtype.itemsize})")
+        digest = hashlib.sha256(f"{layout};{dtype.itemsize}".encode()).hexdigest()
+        super().__init__(name=f"{type(self).__name__}({digest[:12]})")  # short, as it is part of every kernel's name
 
 
 class TableType(_RowsType):
@@ -132,14 +135,17 @@ for _type in (TableType, RecordType, ColumnType):
             super().__init__(dmm, fe_type, ir.IntType(64))
 
 
+_table_type, _record_type = cache(TableType), cache(RecordType)  # numba asks at every call from Python
+
+
 @typeof_impl.register(Table)
 def _typeof_table(value: Table, context: Any) -> TableType:
-    return TableType(value.rows.dtype)
+    return _table_type(value.rows.dtype)
 
 
 @typeof_impl.register(Record)
 def _typeof_record(value: Record, context: Any) -> RecordType:
-    return RecordType(value.rows.dtype)
+    return _record_type(value.rows.dtype)
 
 
 @unbox(TableType)
