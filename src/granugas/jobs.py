@@ -177,8 +177,8 @@ def pass_on_termination() -> None:
 def warm_up(log: str | Path, scenes: Iterable[Scene], processes: int = 1) -> None:
     """Compile the kernels of these scenes in processes of their own, so that jobs that start together find them compiled.
 
-    The first kind of scene goes first, as the others share much with it. No rule does this: compiled kernels belong to the
-    machine, not to the results. Where it fails it tries once more without the kernels that are there, which may be damaged;
+    Kinds of scenes with the same equilibration go to one process, as they share its kernel and much of theirs. No rule does
+    this: compiled kernels belong to the machine, not to the results. Where it fails it tries once more without the kernels that are there, which may be damaged;
     where that fails the jobs fail too, and say so in their logs. Where it was killed the kernels are not to blame.
     """
     Path(log).parent.mkdir(parents=True, exist_ok=True)
@@ -192,15 +192,26 @@ def warm_up(log: str | Path, scenes: Iterable[Scene], processes: int = 1) -> Non
 
 def _compile_or_begin_anew(kinds: Sequence[Scene], processes: int, log: TextIO) -> None:
     """Compile one scene of each kind; where that fails, forget the kernels that are there and compile all of them."""
-    shares = [kinds[1 + k :: processes] for k in range(processes)]
-    for together in ([kinds[:1]], [share for share in shares if share]):
-        codes = _compile(together, log)
-        if any(-code in (signal.SIGTERM, signal.SIGINT, signal.SIGKILL) for code in codes):
-            return
-        if any(codes):
-            forget_kernels()
-            _compile([kinds], log)
-            return
+    codes = _compile(_dealt(kinds, processes), log)
+    if any(-code in (signal.SIGTERM, signal.SIGINT, signal.SIGKILL) for code in codes):
+        return
+    if any(codes):
+        forget_kernels()
+        _compile([kinds], log)
+
+
+def _dealt(kinds: Iterable[Scene], processes: int) -> list[list[Scene]]:
+    """Kinds of scenes for each process, those with the same equilibration together, about as many kernels for each."""
+    alike: dict[object, list[Scene]] = {}
+    for scene in kinds:
+        alike.setdefault((scene.dimensions, modules_of(scene.at_start())), []).append(scene)
+    shares: list[list[Scene]] = [[] for _ in range(min(processes, len(alike)))]
+    kernels = [0] * len(shares)
+    for group in sorted(alike.values(), key=len, reverse=True):
+        least = kernels.index(min(kernels))
+        shares[least] += group
+        kernels[least] += len(group) + 1
+    return shares
 
 
 def _compile(shares: Iterable[Sequence[Scene]], log: TextIO) -> list[int]:

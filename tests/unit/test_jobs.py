@@ -192,14 +192,16 @@ def test_kernels_that_cannot_be_used_are_compiled_again(tmp_path: Path, monkeypa
     assert calls == expected
 
 
-def test_kinds_of_scenes_are_dealt_to_processes_after_the_first(tmp_path: Path, monkeypatch) -> None:
+def test_kinds_of_scenes_with_one_equilibration_go_to_one_process(tmp_path: Path, monkeypatch) -> None:
     compiled = []
     process = SimpleNamespace(wait=lambda: 0)
     monkeypatch.setattr(subprocess, "Popen", lambda command, **_: compiled.append(command[2]) or process)
-    kinds = [Scene(dimensions=2), Scene(dimensions=3), Scene(dimensions=1), Scene(contact_time=0.0)]
+    kinds = [Scene(dimensions=3), Scene(dimensions=2), Scene(dimensions=1), Scene(contact_time=0.0), Scene(dynamics="dsmc")]
     warm_up(tmp_path / "log", [*kinds, Scene(n_particles=7)], processes=2)
-    told = [[f"'dimensions': {k}" in text for k in (2, 3, 1)] for text in compiled]
-    assert told == [[True, False, False], [True, True, False], [False, False, True]]
+    told = [[text.count(f"'dimensions': {k}") for k in (1, 2, 3)] for text in compiled]
+    assert told == [[0, 3, 0], [1, 0, 1]]
+    warm_up(tmp_path / "log", kinds[:1], processes=2)
+    assert len(compiled) == 3  # no process without work
 
 
 def test_the_process_that_compiles_ahead_reads_the_scenes_as_they_are(tmp_path: Path, monkeypatch) -> None:
