@@ -210,7 +210,7 @@ def _dealt(kinds: Iterable[Scene], processes: int) -> list[list[Scene]]:
     for group in sorted(alike.values(), key=len, reverse=True):
         least = kernels.index(min(kernels))
         shares[least] += group
-        kernels[least] += len(group) + 1
+        kernels[least] += len(group) + 2  # the first of a group compiles what they share
     return shares
 
 

@@ -64,12 +64,13 @@ def styled(draw: Draw) -> Draw:
 
 
 def save(figure: Figure, *paths: str | Path) -> None:
-    """Write a figure to each path, its format by the ending; equal figures give equal files."""
+    """Write a figure to each path, its format by the ending, laid out once; equal figures give equal files."""
     for path in map(Path, paths):
         with style.context(STYLE), replacing(path) as temporary:
             figure.savefig(temporary, format=path.suffix[1:], metadata=METADATA.get(path.suffix))
             if path.suffix == ".png":
                 _use_a_palette(temporary)
+            figure.set_layout_engine("none")
 
 
 def _use_a_palette(path: Path) -> None:
