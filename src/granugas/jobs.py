@@ -216,8 +216,9 @@ def _dealt(kinds: Iterable[Scene], processes: int) -> list[list[Scene]]:
 
 def _compile(shares: Iterable[Sequence[Scene]], log: TextIO) -> list[int]:
     """Compile the kernels of each share in a process, all at the same time; returns their exit codes."""
-    program = "from math import inf; from granugas import Scene, warm_up; warm_up([Scene(**v) for v in {!r}])"
-    commands = [[sys.executable, "-c", program.format([scene.as_dict() for scene in share])] for share in shares]
+    program = "import gc; gc.set_threshold({}); from math import inf; from granugas import Scene, warm_up; warm_up({})"
+    told = [f"[Scene(**v) for v in {[scene.as_dict() for scene in share]!r}]" for share in shares]
+    commands = [[sys.executable, "-c", program.format(RARELY, scenes)] for scenes in told]
     started = [subprocess.Popen(command, stdout=log, stderr=subprocess.STDOUT) for command in commands]
     return [process.wait() for process in started]
 

@@ -63,8 +63,8 @@ class Plan(NamedTuple):
     names: tuple[str, ...] | None = None
 
 
-FEW = ("elastic disks", "contact duration", "walls, gravity")
-"""Rows for a preview."""
+FEW = ("elastic disks", "constant restitution", "contact duration", "walls", "log-normal disks", "spheres (three dimensions)")
+"""Rows for a preview, of kernels that its runs have anyway."""
 
 FULL, SMALL = Plan(30.0, 1.0), Plan(5.0, 0.05, FEW)
 
