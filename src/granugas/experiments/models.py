@@ -64,7 +64,7 @@ class Plan(NamedTuple):
 
 
 FULL = Plan(4, 5.0, 2.0, 3000.0)
-SMALL = Plan(1, 0.5, 2.0, 3000.0, models=("IHS", "TC"), places=("free cooling",))
+SMALL = Plan(1, 0.5, 0.1, 200.0, models=("IHS", "TC"), places=("free cooling",))
 
 
 def measure(plan: Plan = FULL) -> xr.Dataset:
