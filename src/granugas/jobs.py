@@ -178,8 +178,9 @@ def warm_up(log: str | Path, scenes: Iterable[Scene], processes: int = 1) -> Non
     """Compile the kernels of these scenes in processes of their own, so that jobs that start together find them compiled.
 
     Kinds of scenes with the same equilibration go to one process, as they share its kernel and much of theirs. No rule does
-    this: compiled kernels belong to the machine, not to the results. Where it fails it tries once more without the kernels that are there, which may be damaged;
-    where that fails the jobs fail too, and say so in their logs. Where it was killed the kernels are not to blame.
+    this: compiled kernels belong to the machine, not to the results. Where it fails it tries once more without the kernels
+    that are there, which may be damaged; where that fails the jobs fail too, and say so in their logs. Where it was killed the
+    kernels are not to blame.
     """
     Path(log).parent.mkdir(parents=True, exist_ok=True)
     begun, before = time.perf_counter(), processor_time()

@@ -45,8 +45,10 @@ def measure(plan: Plan = FULL) -> xr.Dataset:
         copy_kinetic_energy and copy_collisions_per_particle. All runs of one restitution are looked at at the same times.
     """
     starts = [state_of(equilibrate(SCENES[0], seed=SEED, realization=k)) for k in range(plan.realizations)]
-    gases = [xr.concat([_compare(scene, start, k, plan.copies) for k, start in enumerate(starts)], "realization") for scene in SCENES]
-    data = xr.concat(gases, "restitution").assign_coords(restitution=[scene.restitution for scene in SCENES])
+    found = [[_compare(scene, start, k, plan.copies) for k, start in enumerate(starts)] for scene in SCENES]
+    data = xr.combine_nested(found, ["restitution", "realization"]).assign_coords(
+        restitution=[scene.restitution for scene in SCENES]
+    )
     return data.assign_attrs(
         {key: getattr(COOLING, key) for key in ("n_particles", "area_fraction", "contact_time", "diameter")}
     )
