@@ -3,7 +3,7 @@
 import math
 from collections.abc import Callable, Mapping, Sequence
 from itertools import cycle, product
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 import xarray as xr
@@ -13,6 +13,8 @@ from matplotlib.ticker import LogLocator
 
 from granugas.analysis.accuracy import bias
 from granugas.plotting import MARKERS, PAGE, mark_panels, power_of_ten
+
+Data = TypeVar("Data", xr.Dataset, xr.DataArray)
 
 GOALS = {0.1: "10 %", 0.01: "1 %", 0.001: "0.1 %"}
 """Errors that are marked."""
@@ -207,7 +209,7 @@ def methods(events: xr.Dataset, others: Mapping[str, xr.Dataset]) -> list[Curve]
     return curves
 
 
-def _without_single(data: xr.Dataset) -> xr.Dataset:
+def _without_single(data: Data) -> Data:
     """Without keys of the grid that hold one value."""
     return data.squeeze([dim for dim in data.dims if dim != "realization" and data.sizes[dim] == 1], drop=True)
 

@@ -16,9 +16,7 @@ GRAVITY, FIRST_SPEED = 9.81, 1.0
 FIRST_PERIOD = 2 * FIRST_SPEED / GRAVITY
 """t_1 (s)."""
 
-FULL, SMALL = (0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.99), (0.6, 0.8, 0.9)
-"""Coefficients of restitution."""
-
+RESTITUTIONS = (0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.99)
 CONTACT_RATIOS = (1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6)
 """t_c / t_1."""
 
@@ -41,16 +39,16 @@ SOFT_STEP, SOFT_REST = 1 / 200, 200
 """Step of the integration, and when the soft particle rests to rounding (t_c)."""
 
 
-def measure(restitutions: tuple[float, ...] = FULL) -> xr.Dataset:
+def measure() -> xr.Dataset:
     """Numbers of hits, times, periods and averages over r and t_c / t_1, and the heights of the ball that is shown."""
-    hard = xr.concat([_collapse(r) for r in restitutions], "restitution")
-    points = [[_rest(r, ratio * FIRST_PERIOD) for ratio in CONTACT_RATIOS] for r in restitutions]
+    hard = xr.concat([_collapse(r) for r in RESTITUTIONS], "restitution")
+    points = [[_rest(r, ratio * FIRST_PERIOD) for ratio in CONTACT_RATIOS] for r in RESTITUTIONS]
     rest = xr.combine_nested(points, ["restitution", "contact_ratio"])
     data = xr.merge([hard, rest, _heights(), _soft_at_rest()]).transpose("restitution", "contact_ratio", ...)
     data["rest_time_difference"] = data["rest_time_hard"] - data["rest_time"]
     data = data.assign(gravity=GRAVITY, first_period=FIRST_PERIOD).assign_attrs(SHOWN)
     return data.assign_coords(
-        restitution=list(restitutions),
+        restitution=list(RESTITUTIONS),
         contact_ratio=list(CONTACT_RATIOS),
         window=list(WINDOWS),
         window_end=_phases(WINDOW_ENDS),
