@@ -11,6 +11,7 @@ rule clusters:
     params:
         distance_factors=lambda wildcards: CLUSTERS[wildcards.clusters][1],
         analysis=ANALYSIS,
+    priority: 1  # as in each rule that figures wait for
     group: lambda wildcards: together("clusters", batch.of_clusters(*CLUSTERS[wildcards.clusters]))
     resources:
         mem_mb=lambda wildcards, attempt: batch.megabytes(memory_of(CLUSTERS[wildcards.clusters][0]), attempt),
@@ -32,6 +33,7 @@ rule pool:
     params:
         grid_keys=lambda wildcards: STUDIES.studies[wildcards.study].grid_keys,
         storage=STORAGE,
+    priority: 1
     resources:
         mem_mb=lambda wildcards, attempt: batch.megabytes(batch.pooled_size(STUDIES.studies[wildcards.study].runs), attempt),
         runtime=lambda wildcards, attempt: batch.minutes(batch.of_pool(STUDIES.studies[wildcards.study].runs), attempt),

@@ -20,7 +20,6 @@ for name, needed in STUDIES.figures.items():
             f"{OUTPUT}/logs/figures/{name}.log",
         params:
             formulas=FORMULAS,
-        priority: 1  # what else is made at the end is quick
         group:
             "figures" if GROUPED and "cost" not in DRAWN_TABLES.get(drawing, ()) else None
         script:

@@ -58,7 +58,7 @@ rule experiment:
     params:
         physics=lambda wildcards: digest.experiment(wildcards.experiment),
         small=STUDIES.small_experiments,
-    priority: 2  # before figures: one of its own waits for each
+    priority: 1  # before figures: one of its own waits for each
     threads: lambda wildcards: workflow.cores if runs_alone(wildcards) else 1
     resources:
         slurm_extra=lambda wildcards: "--exclusive" if runs_alone(wildcards) else "",
