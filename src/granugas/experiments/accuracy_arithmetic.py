@@ -62,7 +62,7 @@ class Plan(NamedTuple):
 
 
 FULL = Plan(tuple(FLAGS), 12, 20_000, 200_000, (0.1, 1.0))
-SMALL = Plan(("strict", "fused"), 2, 12_000, 10_000, (0.01, 0.02))
+SMALL = Plan(("strict", "fused"), 2, 1_000, 10_000, (0.01, 0.02))
 
 
 def measure(plan: Plan = FULL) -> xr.Dataset:

@@ -40,7 +40,7 @@ class Plan(NamedTuple):
 
 
 FULL = Plan(400)
-SMALL = Plan(20, (0, 1, 5, 20))
+SMALL = Plan(8, (0, 1, 5, 20))
 
 
 def measure(plan: Plan = FULL) -> xr.Dataset:

@@ -40,7 +40,7 @@ class Plan(NamedTuple):
 
 
 FULL = Plan(24, (5, 20, 80, 320, 2560), (1.0, 4.0, 16.0, 64.0, 256.0, 1024.0))
-SMALL = Plan(8, (5, 20, 80, 640), (1.0, 4.0, 16.0, 128.0))
+SMALL = Plan(4, (5, 20, 160), (1.0, 4.0, 32.0))
 
 
 def measure(plan: Plan = FULL) -> xr.Dataset:

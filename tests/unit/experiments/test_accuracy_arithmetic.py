@@ -8,6 +8,8 @@ from granugas.equilibrate import equilibrate, state_of
 from granugas.experiments import accuracy_arithmetic as experiment
 from granugas.storage.variables import describe
 
+PLAN = experiment.Plan(("strict", "fused"), 2, 12_000, 10_000, (0.01, 0.02))
+
 
 @pytest.fixture(scope="module")
 def cache(tmp_path_factory):
@@ -27,7 +29,7 @@ def measured(cache):
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(experiment, "_in_own_process", watched)
-        return describe(experiment.measure(experiment.SMALL))
+        return describe(experiment.measure(PLAN))
 
 
 def test_nothing_with_flags_is_kept(measured, cache):
@@ -39,7 +41,7 @@ def test_fused_operations_change_the_order_after_a_while(measured):
     """Rounding differs at once, what it decides only after it has grown for some collisions of a particle."""
     first = measured["first_difference"]
     assert first.sel(setting="strict").isnull().all()
-    assert (first.sel(setting="fused") > 2000).all() and (first.sel(setting="fused") <= experiment.SMALL.followed).all()
+    assert (first.sel(setting="fused") > 2000).all() and (first.sel(setting="fused") <= PLAN.followed).all()
     assert (measured["rms_gap"].sel(setting="fused") != measured["rms_gap"].sel(setting="strict")).any()
 
 

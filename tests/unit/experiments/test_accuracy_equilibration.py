@@ -9,7 +9,7 @@ from granugas.storage.variables import describe
 
 @pytest.fixture(scope="module")
 def measured():
-    return describe(experiment.measure(experiment.SMALL))
+    return describe(experiment.measure(experiment.Plan(30, (0, 1, 5, 20))))
 
 
 def test_at_first_the_velocities_are_uniform(measured):

@@ -10,7 +10,7 @@ from granugas.storage.variables import describe
 
 @pytest.fixture(scope="module")
 def measured():
-    return describe(experiment.measure(experiment.SMALL))
+    return describe(experiment.measure(experiment.Plan(8, (5, 20, 80, 640), (1.0, 4.0, 16.0, 128.0))))
 
 
 def test_the_truth_is_that_of_theory(measured):
