@@ -34,10 +34,12 @@ REFERENCE = 365.0
 
 JOB = """
 import sys
-from granugas import Scene, simulate
-from granugas.storage.dataset import write
-scene = Scene(n_particles=16, restitution=1.0, contact_time=0.0)
-write(simulate(scene, {"collisions_per_particle": 1.0}, progress=False), sys.argv[1])
+from granugas.jobs import logged
+with logged(sys.argv[2]):
+    from granugas import Scene, simulate
+    from granugas.storage.dataset import write
+    scene = Scene(n_particles=16, restitution=1.0, contact_time=0.0)
+    write(simulate(scene, {"collisions_per_particle": 1.0}, progress=False), sys.argv[1])
 """
 """What every job does beside its work: programs and kernels are loaded, a dataset is written."""
 
@@ -130,7 +132,7 @@ def _start() -> float:
     """Seconds of a job with next to no work."""
     before = sum(os.times()[2:4])
     with tempfile.TemporaryDirectory() as folder:
-        subprocess.run([sys.executable, "-c", JOB, f"{folder}/run.nc"], check=True, capture_output=True)
+        subprocess.run([sys.executable, "-c", JOB, f"{folder}/run.nc", f"{folder}/log"], check=True, capture_output=True)
     return sum(os.times()[2:4]) - before
 
 
