@@ -147,6 +147,3 @@ def begin(jobs):
     if scenes := [run.scene for run in (*runs.values(), *started)]:
         warm_up(f"{OUTPUT}/logs/warm_up.log", scenes, workflow.cores)
     tell_progress({job: run.cost for job, run in runs.items()}, STARTED)
-    # Under a limit of starts a second (100 by default) Snakemake looks at all waiting jobs again each second for each job that
-    # ever ended: half a core after some hundred.
-    workflow.scheduler.job_rate_limiter = None
