@@ -87,7 +87,6 @@ def pooled_size(runs: Sequence[Run]) -> float:
     return POOLED * sum(map(dataset_bytes, runs))
 
 
-@cache
 def _machine() -> "Calibration":
     from granugas.calibration import REFERENCE_MACHINE
 

@@ -12,7 +12,7 @@ import sys
 import threading
 import time
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from types import FrameType
@@ -184,11 +184,16 @@ def warm_up(log: str | Path, scenes: Iterable[Scene], processes: int = 1) -> Non
     """
     Path(log).parent.mkdir(parents=True, exist_ok=True)
     begun, before = time.perf_counter(), processor_time()
-    kinds = [*{(scene.dimensions, modules_of(scene)): scene for scene in scenes}.values()]  # same kernels, same kind
+    kinds = [*{_kernels_of(scene): scene for scene in scenes}.values()]
     with open(log, "w") as file:
         _compile_or_begin_anew(kinds, processes, file)
     cpu, wall = processor_time() - before, time.perf_counter() - begun
     record(Path(log), Cost(cpu_seconds=cpu, wall_seconds=wall, compile_seconds=cpu))  # never done: of all builds together
+
+
+def _kernels_of(scene: Scene) -> Hashable:
+    """Equal for scenes that have the same kernels."""
+    return scene.dimensions, modules_of(scene)
 
 
 def _compile_or_begin_anew(kinds: Sequence[Scene], processes: int, log: TextIO) -> None:
@@ -203,9 +208,9 @@ def _compile_or_begin_anew(kinds: Sequence[Scene], processes: int, log: TextIO) 
 
 def _dealt(kinds: Iterable[Scene], processes: int) -> list[list[Scene]]:
     """Kinds of scenes for each process, those with the same equilibration together, about as many kernels for each."""
-    alike: dict[object, list[Scene]] = {}
+    alike: dict[Hashable, list[Scene]] = {}
     for scene in kinds:
-        alike.setdefault((scene.dimensions, modules_of(scene.at_start())), []).append(scene)
+        alike.setdefault(_kernels_of(scene.at_start()), []).append(scene)
     shares: list[list[Scene]] = [[] for _ in range(min(processes, len(alike)))]
     kernels = [0] * len(shares)
     for group in sorted(alike.values(), key=len, reverse=True):
