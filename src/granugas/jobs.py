@@ -27,8 +27,7 @@ from granugas.storage.damage import DamagedFile, check, is_complete
 PR_SET_PDEATHSIG = 1
 
 RARELY = 500_000
-"""Objects between two searches for cycles among them, in a job: searching what was imported is a third of a small job's time,
-and at its end once more."""
+"""Objects between two searches for cycles among them, in a job: else a third of a small job's time goes into them."""
 
 SKEW = 2.0
 """s by which the clocks of a file server and of this machine may differ."""
@@ -99,7 +98,7 @@ def logged(path: str | Path) -> Iterator[Cost]:
     """
     if sys.platform == "linux":
         ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
-    gc.set_threshold(RARELY)
+    start_lightly()
     terminal = Terminal()
     try:
         Path(path).parent.mkdir(parents=True, exist_ok=True)
@@ -121,6 +120,15 @@ def logged(path: str | Path) -> Iterator[Cost]:
         terminal.finish(path)
     logging.getLogger("granugas").info("done")
     gc.freeze()
+
+
+def start_lightly() -> None:
+    """Spare this process, a job, what would be half of a small one: searches for cycles of objects, and for SciPy.
+
+    Numba looks for SciPy's linear algebra when it first loads a kernel: .2 s where SciPy is installed. No kernel needs it.
+    """
+    gc.set_threshold(RARELY)
+    sys.modules.setdefault("scipy", None)  # type: ignore[arg-type]  # an import of it fails, as the language says
 
 
 def claim(output: str | Path) -> None:
@@ -222,9 +230,12 @@ def _dealt(kinds: Iterable[Scene], processes: int) -> list[list[Scene]]:
 
 def _compile(shares: Iterable[Sequence[Scene]], log: TextIO) -> list[int]:
     """Compile the kernels of each share in a process, all at the same time; returns their exit codes."""
-    program = "import gc; gc.set_threshold({}); from math import inf; from granugas import Scene, warm_up; warm_up({})"
+    program = (
+        "from granugas.jobs import start_lightly; start_lightly()\n"
+        "from math import inf; from granugas import Scene, warm_up; warm_up({})"
+    )
     told = [f"[Scene(**v) for v in {[scene.as_dict() for scene in share]!r}]" for share in shares]
-    commands = [[sys.executable, "-c", program.format(RARELY, scenes)] for scenes in told]
+    commands = [[sys.executable, "-c", program.format(scenes)] for scenes in told]
     started = [subprocess.Popen(command, stdout=log, stderr=subprocess.STDOUT) for command in commands]
     return [process.wait() for process in started]
 

@@ -40,6 +40,12 @@ def test_all_output_goes_to_the_log(tmp_path: Path) -> None:
     assert all(word in said for word in ("said", "shell", "job: logged", "done"))
 
 
+def test_a_job_runs_kernels_without_loading_scipy(tmp_path: Path) -> None:
+    code = "import sys; from granugas import Scene, warm_up; warm_up([Scene(4)]); print(sorted(name for name in sys.modules if name.startswith('scipy.')))"
+    assert script(code, tmp_path / "job.log").returncode == 0
+    assert "[]" in (tmp_path / "job.log").read_text()
+
+
 def test_warnings_of_the_package_reach_the_terminal_too(tmp_path: Path) -> None:
     code = "import logging; [logging.getLogger(name).warning('from ' + name) for name in ('granugas.x', 'other')]"
     done = script(code, tmp_path / "job.log")
