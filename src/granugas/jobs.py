@@ -251,6 +251,11 @@ def tell_progress(costs: Mapping[Job, float], since: float, every: float = 30.0)
     threading.Thread(target=_tell, args=(costs, since, every), daemon=True).start()
 
 
+def wake(waiting: threading.Semaphore, every: float = 1.0) -> None:
+    """Let a main thread that waits for jobs look around from time to time (s): a signal may have come just before it slept."""
+    threading.Thread(target=_wake, args=(waiting, every), daemon=True).start()
+
+
 def progress(costs: Mapping[Job, float], since: float, now: float) -> str:
     """One line: jobs done, share of the expected work, time so far and to go."""
     shares = {job: _share(job, since) for job in costs}
@@ -279,6 +284,12 @@ def _tell(costs: Mapping[Job, float], since: float, every: float) -> None:
     while True:
         time.sleep(every)
         print(progress(costs, since, time.time()), file=sys.stderr, flush=True)
+
+
+def _wake(waiting: threading.Semaphore, every: float) -> None:
+    while True:
+        time.sleep(every)
+        waiting.release()
 
 
 def _share(job: Job, since: float) -> float:

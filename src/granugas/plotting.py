@@ -360,3 +360,15 @@ def run_and_others(axes: Axes, x: xr.DataArray, y: xr.DataArray, **line: Any) ->
         others = of[1:] if alike else interpolated(at[1:], of[1:], along)
         axes.fill_between(along, others.min(axis=0), others.max(axis=0), color=drawn.get_color(), alpha=0.12, linewidth=0.4)
     return drawn
+
+
+def beside(axes: Axes, x: xr.DataArray, y: xr.DataArray, label: str) -> None:
+    """Draw another quantity, on a logarithmic axis of its own at the right."""
+    right = axes.twinx()
+    right.plot(x, y, "D--", color="C1")
+    right.set_yscale("log")
+    right.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+    right.yaxis.set_major_formatter("{x:g}")
+    right.yaxis.set_minor_formatter(NullFormatter())
+    right.set_ylabel(label, color="C1")
+    right.tick_params(axis="y", which="both", colors="C1")

@@ -4,6 +4,7 @@ import os
 import signal
 import subprocess
 import sys
+import threading
 import time
 from pathlib import Path
 from types import SimpleNamespace
@@ -13,7 +14,7 @@ import xarray as xr
 from workflow.project import is_running, wait_for
 
 from granugas import digest
-from granugas.jobs import Job, claim, damaged, date_now, failures, progress, warm_up
+from granugas.jobs import Job, claim, damaged, date_now, failures, progress, wake, warm_up
 from granugas.scene import Scene
 from granugas.storage.dataset import write
 
@@ -40,8 +41,15 @@ def test_all_output_goes_to_the_log(tmp_path: Path) -> None:
     assert all(word in said for word in ("said", "shell", "job: logged", "done"))
 
 
+def test_who_waits_for_jobs_is_woken_from_time_to_time() -> None:
+    waiting = threading.Semaphore(0)
+    wake(waiting, every=0.01)
+    assert all(waiting.acquire(timeout=30) for _ in range(3))
+
+
 def test_a_job_runs_kernels_without_loading_scipy(tmp_path: Path) -> None:
-    code = "import sys; from granugas import Scene, warm_up; warm_up([Scene(4)]); print(sorted(name for name in sys.modules if name.startswith('scipy.')))"
+    loaded = "sorted(name for name in sys.modules if name.startswith('scipy.'))"
+    code = f"import sys; from granugas import Scene, warm_up; warm_up([Scene(4)]); print({loaded})"
     assert script(code, tmp_path / "job.log").returncode == 0
     assert "[]" in (tmp_path / "job.log").read_text()
 

@@ -1,16 +1,16 @@
-"""What the cost of a collision depends on: number of disks, area fraction, clusters, contact duration."""
+"""What the cost of a collision depends on (number of disks, area fraction, clusters, contact duration), and of the workflow."""
 
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import LogLocator, NullFormatter
 
-from granugas.plotting import PAGE, mark_panels, styled
+from granugas.plotting import PAGE, beside, mark_panels, styled
 
 SECTION = "Cost"
 STUDIES = ()
 EXPERIMENTS = ("scaling",)
+TABLES = ("cost",)
 
 
 def rounds(axes: Axes, cost: xr.DataArray, along: str) -> None:
@@ -20,24 +20,21 @@ def rounds(axes: Axes, cost: xr.DataArray, along: str) -> None:
     axes.set_ylim(0, 1.15 * slowest.max())
 
 
-def beside(axes: Axes, x: xr.DataArray, y: xr.DataArray, label: str) -> None:
-    """Another quantity on an axis of its own at the right."""
-    right = axes.twinx()
-    right.plot(x, y, "D--", color="C1")
-    right.set_yscale("log")
-    right.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
-    right.yaxis.set_major_formatter("{x:g}")
-    right.yaxis.set_minor_formatter(NullFormatter())
-    right.set_ylabel(label, color="C1")
-    right.tick_params(axis="y", which="both", colors="C1")
+def by_rule(axes: Axes, costs: xr.Dataset) -> None:
+    """Processor time of all jobs of each rule."""
+    minutes = costs[["rule", "cpu_seconds"]].to_dataframe().groupby("rule")["cpu_seconds"].sum().sort_values() / 60
+    bars = axes.barh(minutes.index, minutes, height=0.7)
+    axes.bar_label(bars, [f"{value:.2g}" for value in minutes], padding=2, fontsize="x-small")
+    axes.tick_params(axis="y", which="both", length=0, labelsize="small")
+    axes.set(xlim=(0, 1.08 * minutes.max()), xlabel="processor time of the workflow by rule (min)")
 
 
 @styled
 def draw(data: dict[str, xr.Dataset]) -> Figure:
-    """ns per collision against (a) N, (b) area fraction, (c) time while clusters grow, (d) t_c."""
+    """ns per collision against (a) N, (b) area fraction, (c) time while clusters grow, (d) t_c; (e) the workflow by rule."""
     timed = data["scaling"]
-    figure = Figure(figsize=(PAGE, 5.2))
-    panels = size, fraction, clustering, contact = figure.subplots(2, 2).ravel()
+    figure = Figure(figsize=(PAGE, 7.4))
+    panels = size, fraction, clustering, contact, rules = [*figure.subplot_mosaic("ab;cd;ee").values()]
     rounds(size, timed["cpu_by_size"], "n_particles")
     size.set(xscale="log", xlabel="$N$")
     rounds(fraction, timed["cpu_by_area_fraction"], "area_fraction")
@@ -49,7 +46,8 @@ def draw(data: dict[str, xr.Dataset]) -> Figure:
     contact.set(xscale="log", xlabel="$t_c$ (s)", ylim=(0, 1.15 * float(timed["cpu_by_contact_time"].max())))
     contact.set_xticks(10.0 ** np.arange(-12, -1, 2))
     beside(contact, timed["contact_time"], timed["run_collisions"], "$C/N$ at the end")
-    for axes in panels:
+    by_rule(rules, data["cost"])
+    for axes in panels[:-1]:
         axes.set_ylabel("time of a collision (ns)")
     mark_panels(*panels)
     return figure

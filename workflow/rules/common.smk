@@ -12,7 +12,7 @@ from granugas.configuration import ConfigError, refuse_duplicate_keys
 from granugas.cost import entries, renew_table, summary
 from granugas.dynamics.events.effects import modules_of
 from granugas.explored import explored
-from granugas.jobs import Job, claim, damaged, date_now, failures, pass_on_termination, tell_progress, warm_up
+from granugas.jobs import Job, claim, damaged, date_now, failures, pass_on_termination, tell_progress, wake, warm_up
 from granugas.report import entry_of
 from granugas.resources import memory_of
 
@@ -147,3 +147,7 @@ def begin(jobs):
     if scenes := [run.scene for run in (*runs.values(), *started)]:
         warm_up(f"{OUTPUT}/logs/warm_up.log", scenes, workflow.cores)
     tell_progress({job: run.cost for job, run in runs.items()}, STARTED)
+    if workflow.local_exec:
+        # Its limit on starts wakes the scheduler once a second for each job that ever started: half a core of a large build.
+        workflow.scheduler.job_rate_limiter = None
+        wake(workflow.scheduler._open_jobs)

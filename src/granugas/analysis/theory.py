@@ -9,7 +9,40 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from granugas.analysis.enskog import (  # noqa: F401 - here is where formulas are looked up
+from granugas.analysis.bouncing import (  # noqa: F401 - here is where formulas are looked up
+    PERIOD_OF_SPRING,
+    bounce_period,
+    bounce_speed,
+    dissipation,
+    hits_to_rest,
+    released_square_velocity,
+    rest_time,
+    rest_time_difference,
+    rest_time_hard,
+    resting_height,
+    resting_square_velocity,
+    spring_contact_time,
+    spring_energy_at_rest,
+    staying_period,
+    whole_hits_to_rest,
+    whole_rest_time_difference,
+)
+from granugas.analysis.elastic_fractions import (  # noqa: F401 - likewise
+    ENERGY_OF_ELASTIC_PARTICLES,
+    dissipation_factor,
+    elastic_collision_fraction,
+    elastic_collision_fraction_shielded,
+    elastic_in_company,
+    elastic_particle_fraction,
+    elastic_within,
+    energy_of_elastic_particles,
+    loss_after_collision,
+    loss_shielding,
+    rate_after_collision,
+    shielding,
+    triplet_excess,
+)
+from granugas.analysis.enskog import (  # noqa: F401 - likewise
     contact_value,
     contact_value_dense,
     enskog_rate,
@@ -22,16 +55,8 @@ from granugas.geometry import INERTIA, ROTATIONS
 
 Numbers = NDArray[np.float64]
 
-ENERGY_OF_ELASTIC_PARTICLES = 5 / 4
-"""e_e / n_e for t_c -> 0 (A Fig. 7), exact in two dimensions: (2D + 1) / (2D), see `energy_of_elastic_particles`."""
-
 VIRIAL_COEFFICIENTS = (1.0, 1.0, 0.782004, 0.532232, 0.333556)
 """B_k / B_2^(k-1) of hard disks for k = 1 ... 5, where B_2 times the number density is 2 nu."""
-
-
-def energy_of_elastic_particles(dimensions: int) -> float:
-    """e_e / n_e = (2D + 1) / (2D) for t_c -> 0: kinetic energy of a particle at its collision, by the mean one."""
-    return (2 * dimensions + 1) / (2 * dimensions)
 
 
 def virial_pressure(area_fraction: ArrayLike) -> Numbers:
@@ -59,17 +84,7 @@ def steady_temperature(heating: ArrayLike, restitution: ArrayLike, rate: ArrayLi
         rate: of collisions at kT/m = 1 (m/s)^2 in 1/s; w is this by sqrt(kT/m).
     """
     correction = 1 + 3 * sonine_coefficient_heated(restitution) / 16
-    return (2 * np.asarray(heating) / (_dissipation(restitution) * correction * np.asarray(rate))) ** (2 / 3)
-
-
-def elastic_particle_fraction(contact_time: ArrayLike, rate: ArrayLike) -> Numbers:
-    """n_e = 1 - exp(-t_c / t_E) (A Eq. 20)."""
-    return -np.expm1(-np.asarray(contact_time) * np.asarray(rate))
-
-
-def elastic_collision_fraction(contact_time: ArrayLike, rate: ArrayLike) -> Numbers:
-    """c_e = 1 - exp(-2 t_c / t_E) (A Eq. 21): mean field, some per cent too high."""
-    return elastic_particle_fraction(2 * np.asarray(contact_time), rate)
+    return (2 * np.asarray(heating) / (dissipation(restitution) * correction * np.asarray(rate))) ** (2 / 3)
 
 
 def kolafa_pressure(volume_fraction: ArrayLike) -> Numbers:
@@ -80,17 +95,17 @@ def kolafa_pressure(volume_fraction: ArrayLike) -> Numbers:
 
 def homogeneous_cooling(tau: ArrayLike, restitution: ArrayLike, dimensions: int = 2) -> Numbers:
     """K = [1 + (1 - r^2) tau / 4]^-2 (A Eq. 23, where K is called T; B Eq. 1); in D dimensions (1 - r^2) tau / (2D)."""
-    return (1 + _dissipation(restitution) * np.asarray(tau) / (2 * dimensions)) ** -2
+    return (1 + dissipation(restitution) * np.asarray(tau) / (2 * dimensions)) ** -2
 
 
 def energy_after_collisions(collisions_per_particle: ArrayLike, restitution: ArrayLike, dimensions: int = 2) -> Numbers:
     """K = exp[-(1 - r^2) / 2 * C/N] in homogeneous cooling (B Eq. 3); in D dimensions (1 - r^2) / D."""
-    return np.exp(-_dissipation(restitution) / dimensions * np.asarray(collisions_per_particle))
+    return np.exp(-dissipation(restitution) / dimensions * np.asarray(collisions_per_particle))
 
 
 def collisions_until(tau: ArrayLike, restitution: ArrayLike, dimensions: int = 2) -> Numbers:
     """C/N = 4 / (1 - r^2) ln K^(-1/2) in homogeneous cooling (B Eq. 4), 2D / (1 - r^2) in D dimensions; tau itself at r = 1."""
-    loss, tau = np.broadcast_arrays(_dissipation(restitution) / (2 * dimensions), np.asarray(tau, dtype=float))
+    loss, tau = np.broadcast_arrays(dissipation(restitution) / (2 * dimensions), np.asarray(tau, dtype=float))
     elastic = loss == 0
     return np.where(elastic, tau, np.log1p(loss * tau) / np.where(elastic, 1, loss))
 
@@ -149,7 +164,7 @@ def rough_rates(
     """
     q, tangents = INERTIA[dimensions], dimensions - 1
     eta = q * (1 + np.asarray(tangential_restitution, dtype=float)) / (2 * q + 2)
-    a = _dissipation(restitution) / 4 + tangents * eta * (1 - eta) / 2
+    a = dissipation(restitution) / 4 + tangents * eta * (1 - eta) / 2
     return a, tangents * eta**2 / (2 * q), tangents * eta / (2 * q) * (1 - eta / q)
 
 
@@ -204,214 +219,3 @@ def cooling_by_velocity(tau: ArrayLike, restitution: Callable[[Numbers], Numbers
     slowness = 2 * np.exp(-log_k / 2) / ((1 - r**2) @ (weight * y))
     passed = np.concatenate([[0], np.cumsum((slowness[1:] + slowness[:-1]) / 2) * (log_k[0] - log_k[1])])
     return np.exp(np.interp(tau, passed, log_k))
-
-
-# One ball that bounces on a plate under gravity g (A section 4.2). v_1 is its speed before the first hit, t_1 = 2 v_1 / g.
-# Energies are per mass m.
-
-
-def bounce_speed(n: ArrayLike, restitution: ArrayLike, first_speed: ArrayLike) -> Numbers:
-    """v_n = r^(n-1) v_1 in m/s before hit n (A Eq. 5)."""
-    return np.asarray(restitution, dtype=float) ** (np.asarray(n) - 1) * np.asarray(first_speed)
-
-
-def bounce_period(speed: ArrayLike, gravity: float) -> Numbers:
-    """t_n = 2 v_n / g in s: the flight that ends with the speed v_n (A Eq. 6)."""
-    return 2 * np.asarray(speed, dtype=float) / gravity
-
-
-def hits_to_rest(restitution: ArrayLike, contact_ratio: ArrayLike) -> Numbers:
-    """n_s = ln(t_c / t_1) / ln r = ln(g t_c / 2 v_1) / ln r, a real number (A Eq. 7); `contact_ratio`: t_c / t_1 <= 1."""
-    return np.log(contact_ratio) / np.log(restitution)
-
-
-def whole_hits_to_rest(restitution: ArrayLike, contact_ratio: ArrayLike) -> Numbers:
-    """The integer n_s: hits that dissipate, until a flight is no longer than t_c; Eq. 7 rounded up."""
-    return np.ceil(hits_to_rest(restitution, contact_ratio))
-
-
-def staying_period(restitution: ArrayLike, contact_ratio: ArrayLike) -> Numbers:
-    """t_inf / t_1 = r^n_s with the integer n_s: the period that stays, r t_c < t_inf <= t_c."""
-    return np.asarray(restitution, dtype=float) ** whole_hits_to_rest(restitution, contact_ratio)
-
-
-def rest_time_hard(restitution: ArrayLike) -> Numbers:
-    """t_s / t_1 = r / (1 - r) of the IHS model, from the first hit on (A Eq. 8)."""
-    r = np.asarray(restitution, dtype=float)
-    return r / (1 - r)
-
-
-def rest_time(restitution: ArrayLike, contact_ratio: ArrayLike) -> Numbers:
-    """t_s / t_1 = r / (1 - r) (1 - t_c / t_1) of the TC model, with the real n_s (A Eq. 9)."""
-    return rest_time_hard(restitution) * (1 - np.asarray(contact_ratio))
-
-
-def rest_time_difference(restitution: ArrayLike, contact_ratio: ArrayLike) -> Numbers:
-    """Delta t_s / t_1 = r / (1 - r) t_c / t_1 with the real n_s (A Eq. 10): the least that an integer one leads to."""
-    return rest_time_hard(restitution) * np.asarray(contact_ratio)
-
-
-def whole_rest_time_difference(restitution: ArrayLike, contact_ratio: ArrayLike) -> Numbers:
-    """Delta t_s / t_1 = t_inf / t_1 / (1 - r) with the integer n_s, t_s being the time of the last hit that dissipates."""
-    return staying_period(restitution, contact_ratio) / (1 - np.asarray(restitution, dtype=float))
-
-
-def resting_square_velocity(period: ArrayLike, gravity: float) -> Numbers:
-    """<v^2> = (g t_n)^2 / 12 in (m/s)^2 over one period t_n (A section 4.2.1); E = E_e is half of it, E_p is as large."""
-    return (gravity * np.asarray(period, dtype=float)) ** 2 / 12
-
-
-def resting_height(period: ArrayLike, gravity: float) -> Numbers:
-    """<h> = g t_n^2 / 12 in m over one period t_n (A section 4.2.1)."""
-    return gravity * np.asarray(period, dtype=float) ** 2 / 12
-
-
-def spring_contact_time(stiffness: ArrayLike) -> Numbers:
-    """t_c^el = pi sqrt(m/k) in s of a linear spring, from k/m in 1/s^2 (A Eq. 12, where pi reads sqrt(2))."""
-    return np.pi / np.sqrt(np.asarray(stiffness, dtype=float))
-
-
-def spring_energy_at_rest(contact_time: ArrayLike, gravity: float) -> Numbers:
-    """V(h_0) = (g t_c^el)^2 / (2 pi^2) in (m/s)^2 of a particle that rests on a linear spring, h_0 = m g / k (A 4.2.2)."""
-    return (gravity * np.asarray(contact_time, dtype=float)) ** 2 / (2 * np.pi**2)
-
-
-PERIOD_OF_SPRING = np.sqrt(12) / np.pi
-"""t_n / t_c^el = 1.103 of the ball whose E_e is the V(h_0) of the spring (A Eq. 13, where it is sqrt(2/12) by mistake)."""
-
-
-def released_square_velocity(
-    period: ArrayLike, gravity: float, restitution: ArrayLike, period_ratio: ArrayLike = 1.0
-) -> Numbers:
-    """<v^2> = (g t_n)^2 [2 - (1 - r^2) u^3] / 24 in (m/s)^2 after gravity is switched off at a random phase (A 4.2.3).
-
-    A ball that falls then hits the plate once more, within t_c of its last hit only if it falls faster than u of the speed
-    that it hits with under gravity: u + 1/u = 4 t_c / t_n - 2, u <= 1. At t_n = t_c, 1 + r^2 stands in place of the
-    print's 1 + r.
-
-    Args:
-        period: t_n (s).
-        gravity: g (m/s^2).
-        restitution: r.
-        period_ratio: t_n / t_c, from 0 to 1.
-    """
-    half = 2 / np.asarray(period_ratio, dtype=float) - 1
-    u = 1 / (half + np.sqrt(half**2 - 1))
-    return (gravity * np.asarray(period, dtype=float)) ** 2 * (2 - _dissipation(restitution) * u**3) / 24
-
-
-# What a collision leaves behind: elastic fractions beyond the mean field of A section 5.4, for t_c -> 0.
-# Two disks in touch hide from any third one the directions within 60 degrees of each other. A disk that has just collided
-# is hit again from the other directions only, though more often from there than the mean disk, as it flies away fast.
-
-
-def rate_after_collision(angle: ArrayLike) -> Numbers:
-    """Rate of collisions from a direction, of a disk that has just collided, by the mean disk's: q(theta).
-
-    q(theta) = sqrt(1 - rho^2) + rho (pi/2 + arcsin rho), rho = -cos(theta)/2, is the mean of a product, as rates are of the
-    speeds of approach: that of the two partners at their collision and that of the third disk now. Both are normal
-    variables taken where they are positive, of correlation rho, as the partner took its part of them away.
-
-    Args:
-        angle: theta in rad between the directions to the partner and to the third disk. No shadow is in it.
-    """
-    rho = -np.cos(angle) / 2
-    return np.sqrt(1 - rho**2) + rho * (np.pi / 2 + np.arcsin(rho))
-
-
-def loss_after_collision(angle: ArrayLike) -> Numbers:
-    """As `rate_after_collision`, but with each collision counted by its energy loss, by u_n^2 of its normal speed u_n.
-
-    [3 rho (pi/2 + arcsin rho) + 3 sqrt(1 - rho^2) - (1 - rho^2)^(3/2)] / 2: the third power of the speed of approach now,
-    its first power at the collision before.
-    """
-    rho = -np.cos(angle) / 2
-    return (3 * rho * (np.pi / 2 + np.arcsin(rho)) + 3 * np.sqrt(1 - rho**2) - (1 - rho**2) ** 1.5) / 2
-
-
-def triplet_excess(angle: ArrayLike) -> Numbers:
-    """[chi(theta) - 1] / nu for nu -> 0: how much more often a third disk is in touch beside the partner than alone.
-
-    chi = g_3 / g(2a)^2 of three disks, i in touch with j and k. A fourth one finds no place within d of j or of k; where
-    these areas overlap and i does not keep it away already, it gains room: (sqrt(3)/2 + pi/3 - sin(theta) - theta/2) d^2
-    up to 120 degrees, none beyond.
-
-    Args:
-        angle: theta in rad, from pi/3 to pi: between the directions from i to j and to k.
-    """
-    theta = np.asarray(angle, dtype=float)
-    area = np.sqrt(3) / 2 + np.pi / 3 - np.sin(theta) - theta / 2
-    return 4 / np.pi * np.where(theta < 2 * np.pi / 3, area, 0.0)
-
-
-def shielding(area_fraction: ArrayLike = 0.0) -> Numbers:
-    """q = lim c_e / (2 t_c / t_E) for t_c -> 0: .9168 + .0595 nu, to first order in nu; 1 in mean field (A Eq. 21).
-
-    The mean of `rate_after_collision` over all directions outside the partner's shadow; exact for nu -> 0, 1 % low at
-    nu = .4. Without the shadow q would be 1.0635: disks that collide are the fast ones.
-    """
-    return _outside_shadow(rate_after_collision, area_fraction)
-
-
-def loss_shielding(area_fraction: ArrayLike = 0.0) -> Numbers:
-    """As `shielding`, of collisions counted by their energy loss: 1.0891 + .0540 nu, to first order in nu.
-
-    Collisions that follow soon upon another are fewer but harder than in mean field, so the TC model, which makes them
-    elastic, saves more energy than 1 - c_e tells.
-    """
-    return _outside_shadow(loss_after_collision, area_fraction)
-
-
-def elastic_collision_fraction_shielded(contact_time: ArrayLike, rate: ArrayLike, area_fraction: ArrayLike = 0.0) -> Numbers:
-    """c_e = 1 - exp(-2 q t_c / t_E): A Eq. 21 with the right slope for t_c -> 0 (`shielding`)."""
-    return elastic_collision_fraction(shielding(area_fraction) * np.asarray(contact_time), rate)
-
-
-def dissipation_factor(contact_time: ArrayLike, rate: ArrayLike, area_fraction: ArrayLike = 0.0) -> Numbers:
-    """Factor by which the TC model reduces the energy loss of a homogeneous gas of r near 1: exp(-2 q t_c / t_E).
-
-    With the q of `loss_shielding`, so the slope for t_c -> 0 is right. A section 7 expects 1 - c_e.
-    """
-    return 1 - elastic_collision_fraction(loss_shielding(area_fraction) * np.asarray(contact_time), rate)
-
-
-def elastic_in_company(area_fraction: ArrayLike, gap: ArrayLike) -> Numbers:
-    """Share of collisions with a third disk nearer to a partner than `gap` (by d, << 1): critical distance (A section 3.v).
-
-    2 n g(2a) d gap by angle outside the shadow, with the number density n: the disks that lie next to either partner.
-    """
-    return -np.expm1(-_neighbours(area_fraction, gap) * _outside_shadow(np.ones_like, area_fraction))
-
-
-def elastic_within(area_fraction: ArrayLike, distance: ArrayLike) -> Numbers:
-    """c_e of the TC model with t_c(u) = `distance` (by d, << 1) / u, that is alpha = 1 (A section 3, end).
-
-    Of the disks next to a partner (`elastic_in_company`) those that approach, however slowly: (1 + rho)/2 at the angle theta,
-    as the partner's velocity was chosen by the speed of approach of the collision before; rho of `rate_after_collision`.
-    """
-    approach = _outside_shadow(lambda angle: (1 - np.cos(angle) / 2) / 2, area_fraction)
-    return -np.expm1(-_neighbours(area_fraction, distance) * approach)
-
-
-def _neighbours(area_fraction: ArrayLike, gap: ArrayLike) -> Numbers:
-    """Disks within a gap (by d, << 1) of either partner if these hid no direction: 2 n g(2a) 2 pi d^2 gap = 16 nu g gap."""
-    return 16 * np.asarray(area_fraction) * contact_value(area_fraction) * np.asarray(gap)
-
-
-def _outside_shadow(function: Callable[[Numbers], Numbers], area_fraction: ArrayLike) -> Numbers:
-    """Mean over all directions of a function of theta, times chi: 0 in the shadow, else 1 + nu `triplet_excess`."""
-    edge = np.pi / 3
-    free = _mean_over_angles(function, edge, np.pi)
-    crowded = _mean_over_angles(lambda angle: function(angle) * triplet_excess(angle), edge, 2 * edge)
-    return free + crowded * np.asarray(area_fraction, dtype=float)
-
-
-def _mean_over_angles(function: Callable[[Numbers], Numbers], low: float, high: float) -> float:
-    """Integral from low to high by pi: 20 Gauss points, exact to rounding for what is smooth in between."""
-    place, weight = np.polynomial.legendre.leggauss(20)
-    half = (high - low) / 2
-    return float(half * weight @ function(low + half * (1 + place)) / np.pi)
-
-
-def _dissipation(restitution: ArrayLike) -> Numbers:
-    return 1 - np.asarray(restitution, dtype=float) ** 2
