@@ -127,3 +127,9 @@ def wait_for(condition: Callable[[], object], seconds: float = 300.0) -> None:
     while not condition():
         assert time.monotonic() < end, "waited in vain"
         time.sleep(0.02)
+
+
+def run_logged(code: str, log: Path) -> subprocess.CompletedProcess[str]:
+    """A line of Python as a job that logs."""
+    text = f"from granugas.jobs import logged\nwith logged({str(log)!r}):\n    {code}\n"
+    return subprocess.run([sys.executable, "-c", text], capture_output=True, text=True)

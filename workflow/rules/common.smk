@@ -8,11 +8,11 @@ from pathlib import Path
 import yaml
 
 from granugas import batch, digest, studies
+from granugas.build import Job, claim, damaged, date_now, failures, pass_on_termination, tell_progress, wake, warm_up
 from granugas.configuration import ConfigError, refuse_duplicate_keys
 from granugas.cost import entries, renew_table, summary
 from granugas.dynamics.events.effects import modules_of
 from granugas.explored import explored
-from granugas.jobs import Job, claim, damaged, date_now, failures, pass_on_termination, tell_progress, wake, warm_up
 from granugas.report import entry_of
 from granugas.resources import memory_of
 

@@ -13,7 +13,7 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from granugas.animation import render
-from granugas.jobs import claim
+from granugas.build import claim
 from granugas.plotting import save
 from granugas.storage.checkpoint import Checkpoint
 from granugas.storage.dataset import write, write_positions
