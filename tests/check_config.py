@@ -6,7 +6,8 @@ from pathlib import Path
 import yaml
 
 from granugas.configuration import ConfigError, merged
-from granugas.studies import figures_in, load
+from granugas.declared import studies_in
+from granugas.studies import load
 
 ROOT = Path(__file__).parents[1]
 
@@ -15,7 +16,7 @@ def main() -> int:
     """1 where a file is not as the schema and the studies ask for; the message says which, the key and what is allowed."""
     schema = yaml.safe_load((ROOT / "workflow/schemas/config.schema.yaml").read_text(encoding="utf-8"))
     base = ROOT / "config/config.yaml"
-    figures, wrong = figures_in(ROOT / "workflow/figures"), 0
+    figures, wrong = studies_in(ROOT / "workflow/figures"), 0
     for overlay in sorted({*ROOT.glob("config/*.yaml"), *ROOT.glob("examples/*.yaml")}):
         try:
             load(merged(dict.fromkeys((base, overlay))), schema, figures)

@@ -149,12 +149,12 @@ def _asked(options: argparse.Namespace) -> "tuple[Studies, dict[str, Any]]":
     """What the configuration asks for with the overlays on top, checked, and the configuration itself."""
     import yaml
 
-    from granugas import studies
+    from granugas import declared, studies
     from granugas.configuration import merged
 
     schema = yaml.safe_load((options.workflow / "schemas/config.schema.yaml").read_text(encoding="utf-8"))
     config = merged([BASE, *options.overlays])
-    return studies.load(config, schema, studies.figures_in(options.workflow / "figures")), config
+    return studies.load(config, schema, declared.studies_in(options.workflow / "figures")), config
 
 
 def _scene(options: argparse.Namespace) -> Scene:

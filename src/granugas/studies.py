@@ -3,12 +3,11 @@
 Pure data and light: nothing here simulates, reads results or knows of the workflow.
 """
 
-import ast
 import itertools
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from pathlib import Path, PurePath
+from pathlib import PurePath
 from typing import Any
 
 from granugas.configuration import MISSING, ConfigError, Written, check_structure, unknown, with_defaults
@@ -17,9 +16,6 @@ from granugas.runs import Run, digest_of
 from granugas.scene import DEFAULTS, SCENE_KEYS, Scene, SceneError, check_value
 
 FLOAT_KEYS = {key for key, value in DEFAULTS.items() if isinstance(value, float)}
-
-OVERVIEW = "overview"
-"""Figure file that draws any study."""
 
 MOST_RUNS = 10_000
 """Runs of a configuration that does not say `allow_large: true`; realizations of one job are so many runs."""
@@ -155,7 +151,7 @@ def load(config: Mapping[str, Any], schema: Mapping[str, Any], figures: Mapping[
     Args:
         config: as the YAML files give it.
         schema: of its structure.
-        figures: the figures that there are and the studies that each needs, see `figures_in`.
+        figures: the figures that there are and the studies that each needs, see `declared.studies_in`.
 
     Raises:
         ConfigError: the first mistake, one line that names key, value and what is allowed.
@@ -187,30 +183,6 @@ def load(config: Mapping[str, Any], schema: Mapping[str, Any], figures: Mapping[
     output = str(PurePath(whole["output"]))
     small = whole["small_experiments"]
     return Studies(output, studies, possible | overviews, wanted, left_out, everything, animations, small)
-
-
-def figures_in(folder: Path) -> dict[str, tuple[str, ...]]:
-    """The files of a folder of figures (or tables, or claims) and the studies that each needs: its line `STUDIES = (...)`.
-
-    Raises:
-        ConfigError: a file without that line.
-    """
-    return {path.stem: _names_in(path, "STUDIES") for path in _files_in(folder)}
-
-
-def experiments_in(folder: Path) -> dict[str, tuple[str, ...]]:
-    """The same files, and the experiments that each needs: its line `EXPERIMENTS = (...)`, if it has one."""
-    return {path.stem: _names_in(path, "EXPERIMENTS", ()) for path in _files_in(folder)}
-
-
-def tables_in(folder: Path) -> dict[str, tuple[str, ...]]:
-    """The same files, and the tables that each needs: its line `TABLES = (...)`, if it has one."""
-    return {path.stem: _names_in(path, "TABLES", ()) for path in _files_in(folder)}
-
-
-def runs_alone(experiment: Path) -> bool:
-    """Whether an experiment times something, so that nothing may run beside it: its line `ALONE = ("...",)` says what."""
-    return bool(_names_in(experiment, "ALONE", ()))
 
 
 def _animation(where: str, block: Mapping[str, Any], studies: Mapping[str, Study]) -> Animation:
@@ -350,20 +322,6 @@ def _asked_for(names: Sequence[str], possible: Mapping[str, Any], left_out: Mapp
         if name not in possible:
             raise unknown("figures", name, name, possible, kind="figure")
     return _distinct("figures", names)
-
-
-def _files_in(folder: Path) -> list[Path]:
-    return [path for path in sorted(folder.glob("*.py")) if path.stem != OVERVIEW and path.stem[0] != "_"]
-
-
-def _names_in(path: Path, what: str, otherwise: tuple[str, ...] | None = None) -> tuple[str, ...]:
-    """A tuple that is written out in a file, which is read, not run."""
-    for statement in ast.parse(path.read_text(encoding="utf-8"), str(path)).body:
-        if isinstance(statement, ast.Assign) and getattr(statement.targets[0], "id", "") == what:
-            return tuple(ast.literal_eval(statement.value))
-    if otherwise is None:
-        raise ConfigError(f"{path.name}: {what}", MISSING, "allowed is a tuple of names, written out")
-    return otherwise
 
 
 def _ascending(where: str, values: Iterable[float]) -> tuple[float, ...]:

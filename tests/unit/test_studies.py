@@ -5,7 +5,6 @@ import math
 import os
 import subprocess
 import sys
-from collections.abc import Iterator
 from dataclasses import fields
 from pathlib import Path
 
@@ -18,7 +17,7 @@ from granugas import studies
 from granugas.configuration import ConfigError
 from granugas.runs import GRID_KEYS, Run, digest_of
 from granugas.scene import SCENE_KEYS, Scene
-from granugas.studies import figures_in, load
+from granugas.studies import load
 
 ROOT = Path(__file__).resolve().parents[2]
 SCHEMA = yaml.safe_load((ROOT / "workflow/schemas/config.schema.yaml").read_text())
@@ -215,16 +214,8 @@ def test_whole_numbers_have_one_digest() -> None:
 
 
 @pytest.fixture
-def figures(tmp_path: Path) -> Iterator[dict[str, tuple[str, ...]]]:
-    (tmp_path / "cooling.py").write_text('import nothing\n\nSTUDIES = ("scan",)\n')
-    (tmp_path / "both.py").write_text('STUDIES = ("scan", "elsewhere")\n')
-    (tmp_path / "overview.py").write_text("")
-    (tmp_path / "_shared.py").write_text("")
-    return figures_in(tmp_path)
-
-
-def test_a_figure_says_which_studies_it_draws(figures: dict) -> None:
-    assert figures == {"cooling": ("scan",), "both": ("scan", "elsewhere")}
+def figures() -> dict[str, tuple[str, ...]]:
+    return {"cooling": ("scan",), "both": ("scan", "elsewhere")}
 
 
 def test_all_figures_are_those_that_can_be_and_overviews_of_the_rest(figures: dict) -> None:
@@ -237,12 +228,6 @@ def test_all_figures_are_those_that_can_be_and_overviews_of_the_rest(figures: di
 def test_a_list_of_figures_is_all_that_is_built(figures: dict) -> None:
     config = {"figures": ["study_scan"], "studies": {"scan": STUDY, "mine": STUDY}}
     assert load(config, SCHEMA, figures).wanted == ("study_scan",)
-
-
-def test_a_figure_without_studies_is_refused(tmp_path: Path) -> None:
-    (tmp_path / "lost.py").write_text("x = 1\n")
-    with pytest.raises(ConfigError, match=r"lost\.py: STUDIES"):
-        figures_in(tmp_path)
 
 
 def test_the_schema_and_the_scene_have_the_same_keys() -> None:

@@ -6,7 +6,7 @@ import yaml
 from workflow.project import ROOT, Project
 
 from granugas.claims import FAILS, HOLDS, NOT_MEASURED, SLIP
-from granugas.studies import figures_in
+from granugas.declared import studies_in
 
 FULL, REDUCED = (ROOT / f"config/{name}.yaml" for name in ("config", "reduced"))
 
@@ -15,10 +15,10 @@ FULL, REDUCED = (ROOT / f"config/{name}.yaml" for name in ("config", "reduced"))
 def test_the_preview_builds_every_figure_and_keeps_to_physics(project: Project) -> None:
     said = project.build("--configfile", FULL, REDUCED, "--", "all", "check")
     preview = project.folder / "results/preview"
-    figures = figures_in(ROOT / "workflow/figures")
+    figures = studies_in(ROOT / "workflow/figures")
     expected = {f"{name}.{kind}" for name in figures for kind in ("png", "pdf")}
     assert {path.name for path in preview.glob("figures/*")} >= expected
-    assert {path.stem for path in preview.glob("*.csv")} == {*figures_in(ROOT / "workflow/tables"), "claims", "cost"}
+    assert {path.stem for path in preview.glob("*.csv")} == {*studies_in(ROOT / "workflow/tables"), "claims", "cost"}
     assert 1e6 < (preview / "explorer.html").stat().st_size < 5e6
     claims = pd.read_csv(preview / "claims.csv")
     assert len(claims) >= 45 and set(claims["verdict"].str.split(" within").str[0]) <= {HOLDS, FAILS, SLIP, NOT_MEASURED}

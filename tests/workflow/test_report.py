@@ -7,7 +7,7 @@ import re
 import pytest
 from workflow.project import ROOT, Project
 
-from granugas.studies import figures_in
+from granugas.declared import studies_in
 
 STUDY = {
     "grid": {"n_particles": 64, "restitution": [0.9, 0.6], "diameter": 2.0e-3},
@@ -61,7 +61,7 @@ def test_the_report_holds_what_was_built(project: Project, monkeypatch: pytest.M
 def test_with_all_figures_all_tables_claims_and_costs_are_pages(project: Project) -> None:
     project.configure(studies={"mine": STUDY})
     jobs = project.jobs("--", "pages")
-    tables = [name for name, needed in figures_in(ROOT / "workflow/tables").items() if not needed]
+    tables = [name for name, needed in studies_in(ROOT / "workflow/tables").items() if not needed]
     assert jobs["page"] == len(tables) + 2 and jobs["claims"] == jobs["cost"] == 1 and jobs["configuration"] == 1
 
 

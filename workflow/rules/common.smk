@@ -7,7 +7,7 @@ from pathlib import Path
 
 import yaml
 
-from granugas import batch, digest, studies
+from granugas import batch, declared, digest, studies
 from granugas.build import Job, claim, damaged, date_now, failures, pass_on_termination, tell_progress, wake, warm_up
 from granugas.configuration import ConfigError, refuse_duplicate_keys
 from granugas.cost import entries, renew_table, summary
@@ -24,7 +24,7 @@ try:
     STUDIES = studies.load(
         config,
         schema=yaml.safe_load((HERE / "workflow/schemas/config.schema.yaml").read_text()),
-        figures=studies.figures_in(HERE / "workflow/figures"),
+        figures=declared.studies_in(HERE / "workflow/figures"),
     )
 except ConfigError as error:
     sys.exit(f"configuration: {error}")
@@ -32,10 +32,10 @@ except ConfigError as error:
 OUTPUT = STUDIES.output
 STATES, RUNS, CLUSTERS, KEEPING = STUDIES.states(), STUDIES.runs(), STUDIES.clusters(), STUDIES.keeping()
 EXPERIMENTS = digest.SOURCES / "experiments"
-DRAWINGS, DRAWN_TABLES = (names_in(HERE / "workflow/figures") for names_in in (studies.experiments_in, studies.tables_in))
+DRAWINGS, DRAWN_TABLES = (names_in(HERE / "workflow/figures") for names_in in (declared.experiments_in, declared.tables_in))
 FIRST_TO_ASK = STUDIES.first_to_ask()
-TABLES, CLAIMS = (STUDIES.possible(studies.figures_in(HERE / f"workflow/{kind}")) for kind in ("tables", "claims"))
-MEASURED = {kind: studies.experiments_in(HERE / f"workflow/{kind}") for kind in ("tables", "claims")}
+TABLES, CLAIMS = (STUDIES.possible(declared.studies_in(HERE / f"workflow/{kind}")) for kind in ("tables", "claims"))
+MEASURED = {kind: declared.experiments_in(HERE / f"workflow/{kind}") for kind in ("tables", "claims")}
 STYLE = [*sorted(digest.SOURCES.glob("plotting*.py")), digest.SOURCES / "snapshots.py", digest.SOURCES / "granugas.mplstyle"]
 ANALYSIS = digest.digest(digest.ANALYSIS)
 FORMULAS = digest.digest(["granugas.analysis.*"])
@@ -78,7 +78,7 @@ def together(what, seconds):
 
 def runs_alone(wildcards):
     """Whether nothing may run beside an experiment; the times of a small plan mean nothing."""
-    return not STUDIES.small_experiments and studies.runs_alone(EXPERIMENTS / f"{wildcards.experiment}.py")
+    return not STUDIES.small_experiments and declared.runs_alone(EXPERIMENTS / f"{wildcards.experiment}.py")
 
 
 def datasets(names, experiments):

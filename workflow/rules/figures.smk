@@ -1,6 +1,6 @@
 # One rule a figure, made from the files of workflow/figures: each names the studies that it draws.
 for name, needed in STUDIES.figures.items():
-    drawing = name if name in DRAWINGS else studies.OVERVIEW
+    drawing = name if name in DRAWINGS else declared.OVERVIEW
 
     rule:
         name:
