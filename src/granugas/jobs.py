@@ -83,12 +83,17 @@ def logged(path: str | Path) -> Iterator[Cost]:
 
 
 def start_lightly() -> None:
-    """Spare this process, a job, what would be half of a small one: searches for cycles of objects, and for SciPy.
+    """Spare this process, a job, what would be half of a small one: searches for cycles of objects, and SciPy.
 
-    Numba looks for SciPy's linear algebra when it first loads a kernel: .2 s where SciPy is installed. No kernel needs it.
+    Numba looks for SciPy's linear algebra when it first loads a kernel: .2 s where SciPy is installed. No kernel needs it, so
+    numba looks while it is hidden; whoever asks for it later gets it.
     """
     gc.set_threshold(RARELY)
-    sys.modules.setdefault("scipy", None)  # type: ignore[arg-type]  # an import of it fails, as the language says
+    if "scipy" not in sys.modules:
+        sys.modules["scipy"] = None  # type: ignore[assignment]  # an import of it fails, as the language says
+        import numba.np.arraymath  # noqa: F401 - it looks
+
+        del sys.modules["scipy"]
 
 
 def mark_of(path: Path) -> Path:

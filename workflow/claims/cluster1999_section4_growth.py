@@ -62,11 +62,16 @@ def count(data, time):
     return mean_and_error(at(curves(data, "collisions_per_particle"), [time])[:, 0])
 
 
+def between(curve, begin, end):
+    """What is added from one time to another, of each realization."""
+    t, values = curve
+    return np.array([np.diff(np.interp((begin, end), t, row))[0] for row in values])
+
+
 def share(data, begin, end):
     """C_e/C from one time to another, of each realization."""
-    _, found = large(data)
-    sums = found[["elastic_collisions_per_particle", "collisions_per_particle"]].interp(time=[begin, end]).diff("time")
-    return (sums["elastic_collisions_per_particle"] / sums["collisions_per_particle"]).isel(time=0).values
+    elastic, counted = (curves(data, name) for name in ("elastic_collisions_per_particle", "collisions_per_particle"))
+    return between(elastic, begin, end) / between(counted, begin, end)
 
 
 @claim(
