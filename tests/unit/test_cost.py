@@ -156,13 +156,22 @@ def test_shared_work_counts_for_the_first_study_that_asks() -> None:
     assert (asked["pool", "a"], asked["pool", "b"]) == ("a", "b")
 
 
-def test_the_figure_has_a_bar_for_every_study_and_what_belongs_to_none(results: Path) -> None:
+def test_the_figure_has_a_bar_for_every_study_and_experiment_and_what_belongs_to_none(results: Path) -> None:
+    for name in ("logs/experiments", "experiments"):
+        (results / name).mkdir()
+    record(results / "logs/experiments/tried.log", Cost(6.0, 6.0, done=True))
+    (results / "experiments/tried.nc").touch()
     write_table(results / "cost.csv", entries(results), STUDY_OF)
     data = read_by_name([results / "cost.csv"])
     figure = runpy.run_path(str(ROOT / "workflow/figures/cost.py"))
     minutes = figure["minutes_of"](data["cost"])
-    assert [*minutes.index] == ["figures, films, tables, claims", "scan", "kernels, compiled ahead"]  # from short to long
+    assert [*minutes.index] == [
+        "figures, films, tables, claims",
+        "scan",
+        "tried",
+        "kernels, compiled ahead",
+    ]  # from short to long
     assert minutes.loc["scan"].sum() * 60 == pytest.approx(5.5) and minutes.loc["scan", "runs"] * 60 == pytest.approx(3)
     (axes,) = figure["draw"](data).axes
-    assert sum(bar.get_width() for bar in axes.patches) * 60 == pytest.approx(13.75)
+    assert sum(bar.get_width() for bar in axes.patches) * 60 == pytest.approx(19.75)
     assert [text.get_text() for text in axes.get_yticklabels()] == [*minutes.index]

@@ -1,4 +1,4 @@
-"""Where the time of the whole reproduction goes: study by study, by what was done."""
+"""Where the time of the whole reproduction goes: each study and experiment, by what was done."""
 
 import numpy as np
 import pandas as pd
@@ -21,10 +21,11 @@ NOT_NAMED = "studies of other configurations"
 
 
 def minutes_of(costs: xr.Dataset) -> pd.DataFrame:
-    """CPU minutes: a row for each study, or kind of work that belongs to none, from short to long; a column for each kind."""
-    table = costs[["study", "rule", "cpu_seconds"]].to_dataframe()
+    """CPU minutes: a row for each study, experiment, or kind of other work, from short to long; a column for each kind."""
+    table = costs[["study", "rule", "name", "cpu_seconds"]].to_dataframe()
     table["kind"] = table["rule"].map(OF_STUDIES | OTHERS)
     table["group"] = table["study"].fillna(NOT_NAMED).where(table["rule"].isin([*OF_STUDIES]), table["kind"])
+    table["group"] = table["name"].where(table["kind"] == "experiments", table["group"])
     minutes = table.pivot_table(index="group", columns="kind", values="cpu_seconds", aggfunc="sum", fill_value=0.0) / 60
     order = [kind for kind in dict.fromkeys((OF_STUDIES | OTHERS).values()) if kind in minutes]
     return minutes.loc[minutes.sum(axis=1).sort_values(kind="stable").index, order]
