@@ -11,6 +11,7 @@ from granugas.analysis.clusters import find_clusters
 from granugas.equilibrate import equilibrate
 from granugas.scene import Scene
 from granugas.simulate import simulate
+from granugas.warm_up import warm_up
 
 GAS = Scene(1435, 0.226725, restitution=0.4, contact_time=0.0, lattice="triangular")
 """r = .4 is far below the critical one: the plain model collapses."""
@@ -89,6 +90,7 @@ def scene_of(model: str, place: str | None = None) -> Scene:
 
 
 def _cooling(scene: Scene, plan: Plan) -> xr.Dataset:
+    warm_up([scene])  # no compilation in its processor time
     return xr.concat([_run(scene, k, plan) for k in range(plan.realizations)], "realization")
 
 
