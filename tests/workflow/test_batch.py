@@ -32,3 +32,10 @@ def test_a_dry_run_shows_no_groups(project: Project):
     project.configure(studies={"small": STUDY}, figures=["study_small"])
     said = project.build("--dry-run", "--quiet", "host", "--", "results/figures/study_small.png")
     assert "mem_mb=" in said and "runtime=" in said and "Group job" not in said
+
+
+def test_short_jobs_go_together_where_a_profile_says_so(project: Project):
+    project.configure(studies={"small": STUDY}, figures=["study_small"])
+    groups = ("--group-components", "states_under_5_s=2", "runs_under_5_s=2", "figures=20")
+    said = project.build("--dry-run", "--quiet", "host", *groups, "--", "results/figures/study_small.png")
+    assert [f"Group job {name}" in said for name in ("states_under_5_s", "runs_under_5_s", "figures")] == [True] * 3

@@ -41,7 +41,6 @@ ANALYSIS = digest.digest(digest.ANALYSIS)
 FORMULAS = digest.digest(["granugas.analysis.*"])
 STORAGE = digest.digest(["granugas.storage.*"])
 EXPLORED = explored(STUDIES)
-GROUPED = bool(workflow.group_settings.group_components)  # only a profile for a batch system makes groups
 
 if STUDIES.left_out and workflow.is_main_process:
     for name, missing in STUDIES.left_out.items():
@@ -70,9 +69,14 @@ def physics(scene):
     return digest.physics(modules_of(scene, scene.at_start()))
 
 
+def grouped():
+    """Whether jobs go together in groups: a profile for a batch system says so, and it is not known yet when rules are read."""
+    return bool(workflow.group_settings.group_components)
+
+
 def together(what, seconds):
-    """The group of a job that is too short to go to a batch system alone; none where the profile makes no groups."""
-    kind = batch.kind(seconds) if GROUPED else None
+    """The group of a job that is too short to go to a batch system alone; none where there are no groups."""
+    kind = batch.kind(seconds) if grouped() else None
     return kind and f"{what}_{kind}"
 
 

@@ -21,7 +21,7 @@ for name, needed in STUDIES.figures.items():
         params:
             formulas=FORMULAS,
         group:
-            "figures" if GROUPED and "cost" not in DRAWN_TABLES.get(drawing, ()) else None
+            None if "cost" in DRAWN_TABLES.get(drawing, ()) else lambda wildcards: "figures" if grouped() else None
         script:
             "../scripts/draw.py"
 
