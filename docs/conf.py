@@ -8,6 +8,7 @@ from pathlib import Path
 EXTENSIONS = Path(__file__).parent / "extensions"
 sys.path.insert(0, str(EXTENSIONS))
 os.environ["JUPYTER_PATH"] = str(EXTENSIONS / "jupyter")  # the notebook runs in this Python, whatever kernels its user has
+os.environ.pop("MPLBACKEND", None)  # its figures belong into the page
 
 project = "granugas"
 author = "The granugas developers"
