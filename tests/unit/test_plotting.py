@@ -109,8 +109,13 @@ def by_method(dynamics, realizations):
 
 
 def costs():
-    """What three jobs took."""
-    rows = {"study": ["one", "one", None], "rule": ["simulate", "pool", "figures"], "cpu_seconds": [60.0, 2.0, 3.0]}
+    """What four jobs took."""
+    rows = {
+        "study": ["one", "one", None, None],
+        "rule": ["simulate", "pool", "experiments", "figures"],
+        "name": ["n42", "one", "soft", "fig02"],
+        "cpu_seconds": [60.0, 2.0, 9.0, 3.0],
+    }
     return xr.Dataset.from_dataframe(pd.DataFrame(rows))
 
 
