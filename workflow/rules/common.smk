@@ -80,6 +80,11 @@ def together(what, seconds):
     return kind and f"{what}_{kind}"
 
 
+def with_figures(wildcards):
+    """The group of figures, each a second; none where there are no groups."""
+    return "figures" if grouped() else None
+
+
 def runs_alone(wildcards):
     """Whether nothing may run beside an experiment; the times of a small plan mean nothing."""
     return not STUDIES.small_experiments and declared.runs_alone(EXPERIMENTS / f"{wildcards.experiment}.py")
@@ -106,9 +111,14 @@ def tables():
     return [f"{OUTPUT}/{name}.csv" for name in (*TABLES, *(["claims"] if CLAIMS else []))] if STUDIES.all_wanted else []
 
 
+def draws_costs(name):
+    """Whether a figure draws on what all others cost, so that it is made after them."""
+    return "cost" in DRAWN_TABLES.get(name, ())
+
+
 def figures(with_costs):
-    """The files of the figures that are wanted: those that draw on what all others cost, or the others."""
-    names = [name for name in STUDIES.wanted if ("cost" in DRAWN_TABLES.get(name, ())) == with_costs]
+    """The files of the figures that are wanted: those that draw on costs, or the others."""
+    names = [name for name in STUDIES.wanted if draws_costs(name) == with_costs]
     return [f"{OUTPUT}/figures/{name}.{kind}" for name in names for kind in ("png", "pdf")]
 
 

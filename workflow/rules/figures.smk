@@ -21,7 +21,7 @@ for name, needed in STUDIES.figures.items():
         params:
             formulas=FORMULAS,
         group:
-            None if "cost" in DRAWN_TABLES.get(drawing, ()) else lambda wildcards: "figures" if grouped() else None
+            None if draws_costs(name) else with_figures
         script:
             "../scripts/draw.py"
 
