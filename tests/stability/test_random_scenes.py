@@ -31,13 +31,6 @@ STANDSTILL = 50
 ROUNDING = 1.0e-12
 """Of momentum and energy, by their sums of magnitudes."""
 
-FLOWN = 1.0e-15
-"""Deepest overlap by the distance flown since the start, where that is more than TOLERATED: a common motion of thousands of
-diameters leaves velocities and positions no more digits."""
-
-RARE = 0.01
-"""Share of scenes, at most, that need it."""
-
 
 @dataclass(frozen=True)
 class Case:
@@ -119,8 +112,7 @@ def outcome(case: Case) -> tuple[str, int, float]:
     engine, n = started(case, lattice), case.scene.n_particles
     velocity = engine.state().velocity
     momentum, at_first, before = velocity.sum(axis=0), energy(velocity), energy(velocity)
-    magnitude, fastest = np.abs(velocity).sum(), np.linalg.norm(velocity, axis=1).max() / case.scene.diameter
-    now, gap = clock(engine), smallest_gap(engine)
+    magnitude, now, gap = np.abs(velocity).sum(), clock(engine), smallest_gap(engine)
     looks = [math.ceil(case.collisions * n / 2 / LOOKS)] * LOOKS
     if case.scene.restitution < 1 and case.scene.contact_time == 0:
         looks += [STANDSTILL * n] * 2
@@ -128,7 +120,7 @@ def outcome(case: Case) -> tuple[str, int, float]:
         why = engine.advance(math.inf, collisions, MOST_EVENTS * n)
         velocity, tally = engine.state().velocity, engine.take_tally()
         gap = min(gap, smallest_gap(engine))
-        assert gap >= -max(TOLERATED, FLOWN * fastest * engine.time)
+        assert gap >= -TOLERATED
         assert engine.backwards == 0
         must_go_on = why == loop.EVENTS or (why == loop.COLLISIONS and collisions == STANDSTILL * n)
         assert clock(engine) > now if must_go_on else clock(engine) >= now
@@ -171,7 +163,6 @@ def test_random_scenes(examples, record_property):
     for name, value in found.items():
         record_property(name, value)
     print(*(f"{name}: {value}" for name, value in found.items()), sep=", ")
-    assert sum(gap < -TOLERATED for gap in gaps) <= RARE * examples
     assert sum(ends.values()) >= examples
     assert ends["all collisions"] > 0.3 * examples
     assert min(ends["collapse named"], ends["refused"]) > 0.05 * examples

@@ -117,10 +117,16 @@ class Engine:
 
     def _run(self, until: float, most_collisions: int, most_events: int) -> int:
         calendar = self._gas.calendar
-        calendar.until = (until - calendar.base) - calendar.base_low
+        calendar.until = self._since_base(until)
         why = loop.run(self._gas, most_collisions, most_events)
-        calendar.reached = max(calendar.now, calendar.until) if why == loop.TIME else calendar.now
+        # Not calendar.until: the origin of times may have moved, and a run that stopped in between would have rounded once.
+        calendar.reached = max(calendar.now, self._since_base(until)) if why == loop.TIME else calendar.now
         return why
+
+    def _since_base(self, time: float) -> float:
+        """A time (s) as the calendar counts it."""
+        calendar = self._gas.calendar
+        return float((time - calendar.base) - calendar.base_low)
 
     def state(self) -> State:
         """Every disk at the present time."""

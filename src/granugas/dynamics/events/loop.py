@@ -88,17 +88,20 @@ def _look_everywhere(gas, i, now):
 
 @inline
 def _cross(gas, i, now):
-    """Disk i enters the next cell, where only the cells ahead are new to it."""
-    disks, grid = gas.disks, gas.grid
-    x, v = position(gas, i, now), velocity(gas, i, now)
-    step = step_ahead(gas.walls, gas, i, x, v)
+    """Disk i enters the next cell, where only the cells ahead are new to it.
+
+    Its flight begins there: a start thousands of cells behind would be rounded in the same direction at each of them.
+    """
+    disks = gas.disks
+    settle(gas.force, gas, i, now)
+    v = disks.v[i]
+    step = step_ahead(gas.walls, gas, i, disks.x[i], v)
     leave_cell(gas, i)
     disks.cell[i] = next_cell(gas, disks.cell[i], step)
-    shift = times(grid.width, step)
-    disks.x[i] = minus(disks.x[i], shift)
+    x = minus(disks.x[i], times(gas.grid.width, step))
+    disks.x[i] = x
     enter_cell(gas, i)
     gas.tally.crossings += 1
-    x = minus(x, shift)
     look_around(gas, i, x, v, now, list_ahead(step, gas, disks.cell[i]))
     plan(gas, i, x, v, now)
 
