@@ -13,8 +13,11 @@ IN_TOUCH = 1.0e-11
 AT_REST = 1.0e-9
 """... that approach with less than this part of their relative velocity have just collided; the rest is rounding."""
 
-RESOLVED = 1.0e-10
-"""Where partners come towards each other by less than this (d) between two collisions, rounding decides what follows."""
+RESOLVED = 3.0e-8
+"""Where partners come towards each other by less than this (d) between two collisions, rounding decides what follows.
+
+The square of it is what they may still be in touch with whom they hit before: in a small box another image of the same disk.
+"""
 
 
 @dataclass

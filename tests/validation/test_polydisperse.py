@@ -1,5 +1,7 @@
 """Disks of different sizes and masses: equipartition and pressure in equilibrium, conservation, clusters by B Eq. 6."""
 
+import math
+
 import numpy as np
 import pytest
 from gaps import TOLERATED, smallest_gap
@@ -40,20 +42,24 @@ def equilibrium(scene: Scene, collisions: int, samples: int):
     [(BIDISPERSE, 0.1, 500_000), (BIDISPERSE, 0.4, 2_500_000), (UNIFORM, 0.25, 1_000_000), (LOG_NORMAL, 0.4, 2_500_000)],
 )
 def test_pressure_and_rate_of_mixtures(sizes, area_fraction, collisions):
-    """Z within .5 % (Jenkins & Mancini); standard errors .05 to .1 %. The rate within 1 %."""
+    """Z within .5 % (Jenkins & Mancini), the rate within 1 %; standard errors .05 to .1 %. The first interval is short."""
     scene = scene_of(sizes, 1000, area_fraction)
     run = equilibrium(scene, collisions, samples=20)
     expected = theory.mixture_pressure(area_fraction, diameters(scene))
-    assert float(run["reduced_pressure"].mean()) == pytest.approx(expected, rel=5e-3)
-    assert float(run["collision_rate"].mean() / run["enskog_rate"]) == pytest.approx(1, rel=1e-2)
+    assert float(run["reduced_pressure"][2:].mean()) == pytest.approx(expected, rel=5e-3)
+    assert float(run["collisions_per_particle"][-1] / run["tau"][-1]) == pytest.approx(1, rel=1e-2)
 
 
 @pytest.mark.parametrize("sizes", [BIDISPERSE, UNIFORM])
 def test_energy_is_shared_evenly(sizes):
-    """T_l / T_s of many samples; the mean ratio of finite samples is about 1 + 2/n_s. Standard error .4 %."""
+    """T_l / T_s of many samples; standard error .4 %. As the whole is at rest, a particle has kT (1 - m_i/M), and the logarithm of
+    a mean of n exponential energies is below that of its expectation by 1/2n.
+    """
     run = equilibrium(scene_of(sizes, 200), 600_000, samples=600)
-    assert float(run["species_temperature_ratio"].mean()) == pytest.approx(1, abs=0.02 + 2 / 100)
-    assert float(np.log(run["species_temperature_ratio"]).mean()) == pytest.approx(0, abs=0.02)
+    mass = run["particle_mass"].values
+    large = mass > mass.mean()
+    of_large, of_small = (math.log(1 - mass[some].mean() / mass.sum()) - 1 / (2 * some.sum()) for some in (large, ~large))
+    assert float(np.log(run["species_temperature_ratio"]).mean()) == pytest.approx(of_large - of_small, abs=0.02)
 
 
 def test_in_cooling_the_heavy_ones_stay_hotter():

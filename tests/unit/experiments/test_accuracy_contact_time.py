@@ -23,7 +23,7 @@ def test_a_contact_longer_than_the_time_between_collisions_keeps_the_energy(meas
     assert float(elastic["measured"].sel(observable="K at 0.5 s")) > 0.9
     assert float(elastic["relative_error"].sel(observable="K at 0.5 s")) > 100
     early = elastic.sel(observable="<M> at 0.1 s")
-    assert early["relative_error"] > 4 * early["relative_error_error"] > 0
+    assert early["relative_error"] > 2 * early["relative_error_error"] > 0
 
 
 def test_what_vanishes_has_values_and_no_relative_error(measured):
