@@ -6,6 +6,7 @@ import xarray as xr
 from granugas.analysis import theory
 
 RATE, N = 1000.0, 50
+SMOOTH = {"material": "constant", "tangential_restitution": -1.0, "friction": np.inf, "boundary": "periodic"}
 
 
 def elastic_study(
@@ -55,3 +56,49 @@ def collapse_study(n_particles: int, realizations: int = 3) -> xr.Dataset:
     }
     grid = {"n_particles": [n_particles], "area_fraction": [0.226725], "restitution": r, "contact_time": [0.0]}
     return xr.Dataset(data, grid | {"realization": np.arange(realizations)})
+
+
+def cooling_study(realizations=2, clusters=False, **grid):
+    """A pooled dataset over a grid: homogeneous cooling with some scatter, and clusters that grow as t^.3."""
+    rng = np.random.default_rng(1)
+    grid = {"n_particles": [100], "restitution": [0.4], "contact_time": [1e-5]} | grid
+    shape = (*(len(values) for values in grid.values()), realizations)
+    time = np.concatenate([[0], np.geomspace(1e-3, 446.6, 60)])
+    dims, at = (*grid, "realization", "time"), (*grid, "realization", "snapshot")
+    once = {"enskog_rate": 445.0, "box_x": 1.0, "box_y": 1.0}
+    tau = np.broadcast_to(445 * time, (*shape, len(time)))
+    energy = theory.homogeneous_cooling(tau, 0.4) * np.exp(0.05 * rng.normal(size=(*shape, 1)) * (time > 0))
+    collisions = theory.collisions_until(tau, 0.4)
+    data = xr.Dataset(
+        {
+            "tau": (dims, tau),
+            "kinetic_energy": (dims, energy),
+            "kinetic_energy_x": (dims, 0.6 * energy),
+            "kinetic_energy_y": (dims, 0.4 * energy),
+            "collisions_per_particle": (dims, collisions),
+            "elastic_collisions_per_particle": (dims, 0.01 * collisions),
+            "elastic_particle_fraction": (dims, np.full(tau.shape, 0.004)),
+            "elastic_energy_fraction": (dims, np.full(tau.shape, 0.005)),
+            "position": ((*at, "particle", "axis"), rng.random((*shape, 2, 100, 2))),
+            "velocity": ((*at, "particle", "axis"), rng.normal(0, 0.01, (*shape, 2, 100, 2))),
+            "collision_frequency": ((*at, "particle"), rng.exponential(500, (*shape, 2, 100))),
+            "last_collision_interval": ((*at, "particle"), rng.exponential(1e-4, (*shape, 2, 100))),
+            "initial_y": ((*dims[:-1], "particle"), rng.random((*shape, 100))),
+            **{name: (dims[:-1], np.full(shape, value)) for name, value in once.items()},
+        },
+        coords=grid | {"time": time, "realization": np.arange(realizations), "snapshot": [0.1, 5.0]},
+        attrs={"area_fraction": 0.25, "diameter": 0.05, "velocity_half_width": 0.5, "dimensions": 2, "boundary": "periodic"}
+        | SMOOTH,
+    )
+    if clusters:
+        factors = np.array([1.05, 1.1, 1.2, 1.3, 1.4])
+        sizes = (1 + time) ** 0.3 * factors[:, np.newaxis] * np.exp(0.02 * rng.normal(size=(*shape, 1, 1)))
+        over = (*dims[:-1], "distance_factor", "time")
+        data = data.assign(
+            mean_cluster_size=(over, sizes),
+            cluster_count=(over, 100 / sizes),
+            weighted_cluster_size=(over, sizes**1.5),
+            largest_cluster_size=(over, sizes**2),
+            cluster_size_distribution=((*over, "cluster_size"), 100 * np.exp(-np.arange(1, 5) / sizes[..., np.newaxis])),
+        ).assign_coords(distance_factor=factors, cluster_size=[1, 2, 3, 4], cluster_size_upper=("cluster_size", [2, 3, 4, 6]))
+    return data

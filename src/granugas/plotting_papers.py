@@ -13,7 +13,8 @@ from matplotlib.figure import Figure
 
 from granugas.analysis.growth import growth_regime, local_exponent
 from granugas.analysis.windows import equal_windows, middles, ratio_of_changes, snapshot_means
-from granugas.plotting import MARKERS, PAGE, mark_panels, mean_and_range, run_and_others, shades, times
+from granugas.plotting import MARKERS, PAGE, mark_panels, shades
+from granugas.plotting_runs import mean_and_range, run_and_others, times
 
 
 def blue_green_red(low: float, middle: float, high: float) -> ScalarMappable:

@@ -30,10 +30,14 @@ UNIT = tuple(
     for name in (
         *("collisions.py", "predict.py"),
         *(
+            "rough.py::test_surfaces_slide_beyond_the_limit_of_coulomb",
             "rough.py::test_energy_of_both_kinds_and_losses_add_up",
             "rough.py::test_an_elastic_contact_of_the_tc_model_does_not_rub",
         ),
-        *("collision_models.py::test_what_follows_a_collision_is_a_chain_of_any_length",),
+        *(
+            "collision_models.py::test_partners_that_part_slowly_are_kicked",
+            "collision_models.py::test_what_follows_a_collision_is_a_chain_of_any_length",
+        ),
     )
 )
 BRUTE = tuple(

@@ -393,7 +393,7 @@ def test_a_common_motion_costs_no_digits(slower, numbers):
     rng = np.random.default_rng(numbers)
     angle, aside = rng.uniform(0, 2 * math.pi, 2)
     position, velocity = row([-16.0, 15.0], [slower / 2, -slower / 2], angle, middle=(50.0, 50.0))
-    engine = engine_of(position, velocity + [math.cos(aside), math.sin(aside)], (100.0, 100.0))
+    engine = engine_of(position, velocity + np.array([math.cos(aside), math.sin(aside)]), (100.0, 100.0))
     assert engine.advance(math.inf, 1, MOST_EVENTS) == loop.COLLISIONS
     assert engine.time == pytest.approx(30.0 / slower, rel=1e-9)
     assert abs(smallest_gap(engine)) <= 1e-13

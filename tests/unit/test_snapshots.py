@@ -3,7 +3,9 @@
 import numpy as np
 import pytest
 import xarray as xr
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import to_rgb
+from matplotlib.figure import Figure
 
 from granugas.snapshots import (
     COLOURS,
@@ -11,6 +13,7 @@ from granugas.snapshots import (
     by_energy,
     by_frequency,
     by_height,
+    draw_disks,
     draw_snapshots,
     frequency_or_contact,
     relative_energy,
@@ -98,3 +101,20 @@ def test_disks_have_their_colours_and_what_is_infinite_a_ring(study):
     inside = {tuple(place): colour for place, colour in zip(disks.get_offsets(), disks.get_facecolors(), strict=True)}
     for place, value in zip(places, heights(shot), strict=True):
         np.testing.assert_allclose(inside[tuple(place)], by_height()(value))
+
+
+def test_disks_are_drawn_to_scale_and_across_the_edges():
+    """A fourth of the box is covered, by each disk alike wherever it lies."""
+    n = 8
+    covered = []
+    for shift in (0.0, 0.5):
+        figure = Figure(figsize=(4, 4))
+        axes = figure.add_axes((0, 0, 1, 1))
+        d = np.sqrt(4 * 0.25 / np.pi) / n
+        position = (np.stack(np.meshgrid(*[np.arange(n)] * 2), axis=-1).reshape(-1, 2) + shift) / n
+        draw_disks(axes, position, (1.0, 1.0), d, np.tile([0.0, 0.0, 0.0, 1.0], (n * n, 1)))
+        axes.set_axis_off()
+        canvas = FigureCanvasAgg(figure)
+        canvas.draw()
+        covered.append(1 - np.asarray(canvas.buffer_rgba())[..., 0].mean() / 255)
+    np.testing.assert_allclose(covered, 0.25, rtol=0.06)

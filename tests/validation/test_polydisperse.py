@@ -52,8 +52,10 @@ def test_pressure_and_rate_of_mixtures(sizes, area_fraction, collisions):
 
 @pytest.mark.parametrize("sizes", [BIDISPERSE, UNIFORM])
 def test_energy_is_shared_evenly(sizes):
-    """T_l / T_s of many samples; standard error .4 %. As the whole is at rest, a particle has kT (1 - m_i/M), and the logarithm of
-    a mean of n exponential energies is below that of its expectation by 1/2n.
+    """T_l / T_s of many samples; standard error .4 %.
+
+    As the whole is at rest, a particle has kT (1 - m_i/M), and the logarithm of a mean of n exponential energies is on
+    average 1/2n below that of their expectation.
     """
     run = equilibrium(scene_of(sizes, 200), 600_000, samples=600)
     mass = run["particle_mass"].values

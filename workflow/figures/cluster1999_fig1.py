@@ -5,8 +5,9 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from granugas.analysis.theory import energy_after_collisions, homogeneous_cooling
-from granugas.plotting import THEORY, grid_points, power_line, shades, styled
+from granugas.plotting import THEORY, shades, styled
 from granugas.plotting_papers import cooling_views
+from granugas.plotting_runs import grid_points, power_line
 
 STUDIES = ("cluster1999_restitutions",)
 

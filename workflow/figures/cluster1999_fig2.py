@@ -5,8 +5,9 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from granugas.analysis.theory import energy_after_collisions, homogeneous_cooling
-from granugas.plotting import THEORY, grid_points, power_of_ten, styled
+from granugas.plotting import THEORY, power_of_ten, styled
 from granugas.plotting_papers import cooling_views
+from granugas.plotting_runs import grid_points
 
 STUDIES = ("cluster1999_contact_times",)
 

@@ -5,8 +5,9 @@ from matplotlib.figure import Figure
 
 from granugas.analysis.growth import local_exponent
 from granugas.analysis.theory import collisions_until, homogeneous_cooling
-from granugas.plotting import PAGE, THEORY, band, grid_points, mark_panels, power_line, styled, times
+from granugas.plotting import PAGE, THEORY, mark_panels, styled
 from granugas.plotting_papers import mark_growth
+from granugas.plotting_runs import band, grid_points, power_line, times
 
 STUDIES = ("cluster1999_large",)
 

@@ -7,7 +7,8 @@ from matplotlib.figure import Figure
 
 from granugas.analysis.growth import growth_window, local_exponent
 from granugas.analysis.statistics import fit_power_law
-from granugas.plotting import PAGE, band, grid_points, mark_panels, styled
+from granugas.plotting import PAGE, mark_panels, styled
+from granugas.plotting_runs import band, grid_points
 
 SECTION = "Effects"
 STUDIES = ("growth_smooth", "growth_rough", "growth_viscoelastic")

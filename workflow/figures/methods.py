@@ -5,7 +5,8 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from granugas.analysis.structure import pair_correlation
-from granugas.plotting import PAGE, band, mark_panels, styled
+from granugas.plotting import PAGE, mark_panels, styled
+from granugas.plotting_runs import band
 
 SECTION = "Accuracy"
 STUDIES = ("methods_events", "methods_soft_spheres", "methods_dsmc")

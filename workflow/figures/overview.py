@@ -6,7 +6,8 @@ import xarray as xr
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from granugas.plotting import PAGE, band, grid_points, mark_panels, point_names, shades, styled, times
+from granugas.plotting import PAGE, mark_panels, shades, styled
+from granugas.plotting_runs import band, grid_points, point_names, times
 
 SECTION = "Studies"
 STUDIES = ()

@@ -5,7 +5,8 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from granugas.plotting import PAGE, beside, mark_panels, styled
+from granugas.plotting import PAGE, mark_panels, styled
+from granugas.plotting_runs import beside
 
 SECTION = "Cost"
 STUDIES = ()

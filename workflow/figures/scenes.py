@@ -5,8 +5,9 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from granugas.plotting import PAGE, draw_disks, grid_points, styled
-from granugas.snapshots import by_energy, relative_energy
+from granugas.plotting import PAGE, styled
+from granugas.plotting_runs import grid_points
+from granugas.snapshots import by_energy, draw_disks, relative_energy
 
 SECTION = "Effects"
 STUDIES = (

@@ -4,8 +4,10 @@ import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
-from granugas.plotting import PAGE, draw_disks, grid_points, shades, styled
+from granugas.plotting import PAGE, shades, styled
 from granugas.plotting_papers import blue_green_red
+from granugas.plotting_runs import grid_points
+from granugas.snapshots import draw_disks
 
 STUDIES = ("tc1998_n22960",)
 

@@ -5,7 +5,8 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from granugas.analysis.theory import energy_after_collisions
-from granugas.plotting import THEORY, grid_points, power_of_ten, shades, styled, thinned
+from granugas.plotting import THEORY, power_of_ten, shades, styled
+from granugas.plotting_runs import grid_points, thinned
 
 STUDIES = ("tc1998_contact_times",)
 

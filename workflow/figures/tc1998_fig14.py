@@ -3,8 +3,9 @@
 import xarray as xr
 from matplotlib.figure import Figure
 
-from granugas.plotting import grid_points, power_of_ten, shades, styled
+from granugas.plotting import power_of_ten, shades, styled
 from granugas.plotting_papers import elastic_fractions
+from granugas.plotting_runs import grid_points
 
 STUDIES = ("tc1998_contact_times",)
 

@@ -4,7 +4,8 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from granugas.analysis.theory import homogeneous_cooling
-from granugas.plotting import THEORY, band, grid_points, number_1_2_5, shades, styled, thinned
+from granugas.plotting import THEORY, number_1_2_5, shades, styled
+from granugas.plotting_runs import band, grid_points, thinned
 
 STUDIES = ("tc1998_restitutions",)
 

@@ -10,6 +10,7 @@ from numba import njit
 from granugas.dynamics.events import predict
 from granugas.dynamics.events.engine import Engine
 from granugas.dynamics.events.state import NOBODY
+from granugas.equilibrate import at_rest
 from granugas.scene import Scene
 
 FOREVER = 1.0e300
@@ -55,6 +56,7 @@ def test_no_cancellation_at_a_tiny_gap():
 
 
 def test_grazing():
+    assert delay((5.0, 1.0), (-1.0, 0.0)) == 5.0
     assert delay((5.0, 1.0 - 1e-9), (-1.0, 0.0)) == pytest.approx(5.0, abs=1e-4)
     assert delay((5.0, 1.0 + 1e-9), (-1.0, 0.0)) == math.inf
 
@@ -95,6 +97,32 @@ def test_a_delay_beyond_what_counts_may_be_left_out_but_no_other():
         assert found == wanted if wanted <= longest else found in (wanted, math.inf)
 
 
+def test_a_delay_is_left_out_where_its_bound_says_so():
+    """Without a root: no disk has come nearer before -c / 2b."""
+    for r, u in (((2.0, 0.5), (-1.0, 0.0)), ((1.5, 0.1), (-3.0, 0.2)), ((1.1, 0.0), (-0.1, 0.01))):
+        bound = (np.dot(r, r) - 1) / (-2 * np.dot(r, u))
+        assert delay(r, u, 1.01 * bound) == pytest.approx(by_roots(r, u)) or by_roots(r, u) > 1.01 * bound
+        assert delay(r, u, 0.99 * bound) == math.inf
+
+
+def test_disks_that_move_alike_never_meet():
+    scene = Scene(8, 0.2, 1.0, 0.0)
+    start = lattice_gas(scene)
+    start.velocity[:] = start.velocity[0]
+    engine = Engine(scene, start)
+    assert np.all(engine.arrays["disks"]["partner"] == NOBODY)
+    assert np.all(engine.arrays["schedule"]["time"] < math.inf)
+
+
+@pytest.mark.parametrize(("approach", "meet"), [(2e-14, True), (0.7e-14, False)])
+def test_rounding_is_that_of_both_velocities(approach, meet):
+    """Two in touch with the velocities 1 and 1 - approach along the pair: 1e-14 of sqrt(2) is noise."""
+    scene = Scene(2, 0.02, 1.0, 0.0, diameter=1.0)
+    position, velocity = np.array([[4.0, 4.0], [5.0, 4.0]]), np.array([[1.0, 0.0], [1.0 - approach, 0.0]])
+    engine = Engine(scene, at_rest(position, velocity, (9.0, 9.0)))
+    assert np.all((engine.arrays["disks"]["t_coll"] == 0.0) == meet)
+
+
 @pytest.mark.parametrize(
     "scene",
     [
@@ -120,5 +148,6 @@ def test_everybody_has_an_appointment(scene):
         keeps[met[partner < met]] = False
         assert np.all(time[keeps] < math.inf)
         assert np.all(time[keeps] <= disks["t_coll"][keeps])
+        assert np.all((time[~keeps] < disks["t_coll"][~keeps]) | (time[~keeps] == math.inf))
         assert np.all(time >= engine.arrays["calendar"]["now"][0])
         engine.advance(math.inf, most_events=97)
