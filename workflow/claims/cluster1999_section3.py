@@ -416,7 +416,7 @@ def jumps(found):
     "and .2",
     expected=at_least(JUMP),
     why="a step ten times as steep as the curve about it is a jump",
-    remark="The largest rates are 2 and 4 times the mean: at r = .2 C/N grows fast, but steadily. Shorter bursts, of a "
+    remark="The largest rates are 2 and 3 to 4 times the mean: at r = .2 C/N grows fast, but steadily. Shorter bursts, of a "
     "collision per particle or less, fall between the samples, which are 2 % of C/N apart, and are no jumps at the "
     "scale of the figure. The paper does not say how far apart its data points are.",
 )
@@ -470,7 +470,7 @@ def energy_does_not_jump(data):
     "r = .6, .2",
     expected=at_least(2),
     why="'activated': twice as much as elsewhere at least",
-    remark="At r = .6 it is so, by a factor 20. At r = .2 a fifth of all collisions is elastic, whether the rate is large "
+    remark="At r = .6 it is so, more than tenfold. At r = .2 a fifth of all collisions is elastic, whether the rate is large "
     "or not.",
 )
 def tc_model_in_jumps(data):
@@ -709,7 +709,7 @@ def weakest_for_the_largest(data):
     "standard deviations of one run",
     expected=at_least(2),
     why="what deviates strongly lies outside of the scatter of single runs",
-    remark="On average t_c = 1e-8 s is like its neighbours: the difference is below a tenth of the scatter. The paper has "
+    remark="On average t_c = 1e-8 s is like its neighbours: the difference is a fraction of the scatter. The paper has "
     "one run of each t_c, and single runs scatter widely once there is a shear mode (B-3-13, B-3-33).",
 )
 def one_deviates(data):
@@ -733,8 +733,8 @@ def one_deviates(data):
     quantity="c_e from C/N = 100 on by Eq. 21 of the other paper at t = 0, t_c = 1e-6, 1e-8, 1e-10 s",
     expected=at_least(10),
     why="'comparatively large': a decade above the homogeneous gas at its hottest",
-    remark="The gas is cold by then. Compared with the mean field at the rates of that time c_e is 50 (1e-6 s) and 100 "
-    "times (1e-8 s) larger, but not with that of the hot start; for 1e-10 s not one collision was elastic.",
+    remark="The gas is cold by then. Compared with the mean field at the rates of that time c_e is some 50 times "
+    "larger (1e-6 s), but not with that of the hot start; for 1e-8 s it is few collisions, for 1e-10 s hardly any.",
 )
 def many_affected(data):
     """Once there are strong fluctuations in density a comparatively large number of particles is affected by the TC model."""

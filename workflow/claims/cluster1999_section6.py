@@ -138,7 +138,8 @@ def contacts_inside(data):
     quantity="most frequent number of contacts in the largest cluster (of S_c = 1.1) at 446.6 s, S_c = 1.01",
     expected=value(6),
     why="1.01 is the lower end of what the paper calls reasonable",
-    remark="Three, fewer than at 1.05: a third or more of the gaps between neighbours in the cluster are wider than .01 d.",
+    remark="Three or four, fewer than at 1.05: a third or more of the gaps between neighbours in the cluster are wider than "
+    ".01 d.",
 )
 def contacts_at_the_lower_end(data):
     """(i) And at S_c = 1.01."""
