@@ -73,8 +73,8 @@ class Calibration:
         return self.collision(SIZES[1]) / REFERENCE
 
 
-REFERENCE_MACHINE = Calibration(SIZES, (300.0, REFERENCE, 600.0), 1.75, 1.3e-4, 2e-7)
-"""That of REFERENCE, for those who plan for machines on which nothing can be measured."""
+REFERENCE_MACHINE = Calibration(SIZES, (340.0, REFERENCE, 540.0), 0.7, 4e-5, 2e-7)
+"""The one of REFERENCE, for those who plan for machines on which nothing can be measured."""
 
 
 def calibration() -> Calibration:
