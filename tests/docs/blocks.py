@@ -58,7 +58,8 @@ def outside_of_fences(text: str) -> str:
 def copy_of_project(folder: Path) -> Path:
     """The project as a clone has it, with the environment and the package of this one, whose kernels are compiled."""
     copy_of_sources(folder)
-    shutil.copytree(ROOT / "examples", folder / "examples")
+    for name in ("examples", "benchmarks"):
+        shutil.copytree(ROOT / name, folder / name)
     for name in COPIED:
         shutil.copy2(ROOT / name, folder / name)
     (folder / ".venv").symlink_to(sys.prefix)
