@@ -4,6 +4,7 @@ A claim is one short function of the data under `@claim(...)`; its docstring say
 how far from that is still right, with the reason, stand in the decorator and are written before the data are looked at.
 """
 
+import re
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -24,7 +25,7 @@ MANY = 9
 """More numbers than these are told by their extremes."""
 
 HOLDS, FAILS, SLIP, NOT_MEASURED = "holds", "does not hold", "slip of the print", "not measured"
-PAPERS = {"A": "Luding & McNamara 1998", "B": "Luding & Herrmann 1999"}
+PAPERS = {"A": "Luding & McNamara 1998", "B": "Luding & Herrmann 1999", "C": "of one's own"}
 """By the letter with which the ids of their claims begin."""
 
 COLUMNS = ("id", "section", "figure", "claim", "quantity", "expected", "measured", "error", "tolerance", "verdict", "remark")
@@ -126,7 +127,17 @@ class Claim:
 def claim(
     id: str, *, quantity: str, expected: Expected, why: str, figure: str = "", remark: str = ""
 ) -> Callable[[Callable[[Data], Any]], Claim]:
-    """Make a claim of a function that measures it; the function's docstring is the claim in words."""
+    """Make a claim of a function that measures it; the function's docstring is the claim in words.
+
+    Args:
+        id: paper, section and number, like A-6.2-12.
+        quantity, expected, why, figure, remark: as in `Claim`.
+
+    Raises:
+        ValueError: another id.
+    """
+    if not re.fullmatch(rf"[{''.join(PAPERS)}]-[\w.]+-\w+", id):
+        raise ValueError(f"id = {id!r}: allowed is a letter ({', '.join(PAPERS)}), a section and a number, like A-6.2-12")
 
     def made(measure: Callable[[Data], Any]) -> Claim:
         text = " ".join((measure.__doc__ or "").split())

@@ -6,7 +6,7 @@ The files are read, not run.
 import ast
 from pathlib import Path
 
-from granugas.configuration import MISSING, ConfigError
+from granugas.configuration import MISSING, ConfigError, unknown
 
 OVERVIEW = "overview"
 """Figure file that draws any study."""
@@ -21,9 +21,30 @@ def studies_in(folder: Path) -> dict[str, tuple[str, ...]]:
     return {path.stem: _names_in(path, "STUDIES") for path in _files_in(folder)}
 
 
-def experiments_in(folder: Path) -> dict[str, tuple[str, ...]]:
-    """The same files, and the experiments that each needs: its line `EXPERIMENTS = (...)`, if it has one."""
-    return {path.stem: _names_in(path, "EXPERIMENTS", ()) for path in _files_in(folder)}
+def experiments_in(folder: Path, experiments: Path) -> dict[str, tuple[str, ...]]:
+    """The same files, and the experiments that each needs: its line `EXPERIMENTS = (...)`, if it has one.
+
+    Raises:
+        ConfigError: a name of which there is no file in the folder `experiments`.
+    """
+    found = {path: _names_in(path, "EXPERIMENTS", ()) for path in _files_in(folder)}
+    known = {path.stem for path in _files_in(experiments)}
+    for path, names in found.items():
+        for name in names:
+            if name not in known:
+                raise unknown(f"{path.name}: EXPERIMENTS", name, name, known, kind="experiment")
+    return {path.stem: names for path, names in found.items()}
+
+
+def check_captions(figures: Path, captions: Path) -> None:
+    """Each figure has a caption for the report.
+
+    Raises:
+        ConfigError: it has none.
+    """
+    for path in _files_in(figures):
+        if not (captions / f"{path.stem}.rst").is_file():
+            raise ConfigError(f"{path.stem}.rst", MISSING, f"allowed is a file in {captions.name}/, the caption of the figure")
 
 
 def tables_in(folder: Path) -> dict[str, tuple[str, ...]]:
@@ -41,10 +62,17 @@ def _files_in(folder: Path) -> list[Path]:
 
 
 def _names_in(path: Path, what: str, otherwise: tuple[str, ...] | None = None) -> tuple[str, ...]:
-    """A tuple that is written out in a file."""
+    """A tuple that is written out in a file.
+
+    Raises:
+        ConfigError: there is none, or a single name without a comma.
+    """
     for statement in ast.parse(path.read_text(encoding="utf-8"), str(path)).body:
         if isinstance(statement, ast.Assign) and getattr(statement.targets[0], "id", "") == what:
-            return tuple(ast.literal_eval(statement.value))
+            found = ast.literal_eval(statement.value)
+            if isinstance(found, str):
+                raise ConfigError(f"{path.name}: {what}", found, f'allowed is a tuple of names, with a comma: ("{found}",)')
+            return tuple(found)
     if otherwise is None:
         raise ConfigError(f"{path.name}: {what}", MISSING, "allowed is a tuple of names, written out")
     return otherwise

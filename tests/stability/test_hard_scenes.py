@@ -389,14 +389,14 @@ def test_a_long_flight_costs_no_digits(distance, angle):
 @pytest.mark.parametrize("slower", [1e-1, 1e-2, 1e-3])
 @pytest.mark.parametrize("numbers", range(5))
 def test_a_common_motion_costs_no_digits(slower, numbers):
-    """Two disks that fly along together meet as exactly as if they had not: 300 to 30 000 d through a box of 100 d."""
+    """Two disks that fly together for 300 to 30 000 d before they meet: 1e-16 of a diameter is lost in each cell at most."""
     rng = np.random.default_rng(numbers)
     angle, aside = rng.uniform(0, 2 * math.pi, 2)
     position, velocity = row([-16.0, 15.0], [slower / 2, -slower / 2], angle, middle=(50.0, 50.0))
     engine = engine_of(position, velocity + np.array([math.cos(aside), math.sin(aside)]), (100.0, 100.0))
     assert engine.advance(math.inf, 1, MOST_EVENTS) == loop.COLLISIONS
     assert engine.time == pytest.approx(30.0 / slower, rel=1e-9)
-    assert abs(smallest_gap(engine)) <= 1e-13
+    assert abs(smallest_gap(engine)) <= TOLERATED
 
 
 @pytest.mark.parametrize("numbers", range(10))

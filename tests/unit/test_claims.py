@@ -228,6 +228,12 @@ def test_there_are_enough_claims_of_every_section():
     assert {one.section for one in FIRST_PAPER.values()} == SECTIONS
 
 
+@pytest.mark.parametrize("id", ["mine", "D-1-01", "A-1", "A-1-01\n"])
+def test_other_ids_are_refused(id):
+    with pytest.raises(ValueError, match=r"allowed is a letter \(A, B, C\)"):
+        claim(id, quantity="", expected=at_most(1), why="")
+
+
 @pytest.mark.parametrize("one", CLAIMS.values(), ids=CLAIMS)
 def test_a_claim_is_complete(one: Claim):
     assert one.text.endswith(".") and one.quantity and one.why

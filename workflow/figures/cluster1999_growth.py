@@ -11,9 +11,7 @@ from granugas.plotting import PAGE, mark_panels, shades, styled
 from granugas.plotting_runs import band, grid_points
 
 STUDIES = ("cluster1999_large",)
-WINDOW = (1.0, 40.0)
-"""The growth regime of the paper, in s."""
-
+WINDOW = (1.0, 40.0)  # the growth regime of the paper, in s
 SIZES = {"mean": r"\langle M \rangle = N/I_c", "weighted": r"\sum M_i^2/N", "largest": r"M_{\max}"}
 
 

@@ -46,9 +46,8 @@ def lines(axes, t, values, labels, name):
     """Means and ranges over realizations; exponents in the labels where three snapshots are in the window."""
     axes.set(xscale="log", yscale="log", xlabel="$t$ (s)", ylabel=name)
     for y, label, colour in zip(values, labels, ("black", *shades(3)), strict=True):
-        if np.count_nonzero((t >= WINDOW[0]) & (t <= WINDOW[1])) > 2:
-            label += f": {exponent(fit_power_law(t, y, WINDOW))}"
-        band(axes, t, xr.DataArray(y, dims=("realization", "time")), color=colour, marker=".", markersize=3, label=label)
+        fit = f": {exponent(fit_power_law(t, y, WINDOW))}" if ((t >= WINDOW[0]) & (t <= WINDOW[1])).sum() > 2 else ""
+        band(axes, t, xr.DataArray(y, dims=("realization", "time")), color=colour, marker=".", markersize=3, label=label + fit)
     axes.legend(fontsize="x-small")
 
 

@@ -30,9 +30,8 @@ def growth(axes: Axes, sizes: xr.DataArray, **look) -> None:
 @styled
 def draw(data: dict[str, xr.Dataset]) -> Figure:
     """(a) <M> and (b) M_max with their power laws, (c) K and homogeneous cooling, (d) to (f) n(M)/N for each S_c."""
-    figure = Figure(figsize=(PAGE, 5.8))
+    figure, ((key, runs),) = Figure(figsize=(PAGE, 5.8)), grid_points(data[STUDIES[0]])
     (mean, largest, energy), numbers = panels = figure.subplots(2, 3)
-    ((key, runs),) = grid_points(data[STUDIES[0]])
     n = key["n_particles"]
     for axes, label in ((mean, r"$\langle M \rangle$"), (largest, r"$M_{\max}$"), (energy, "$K$")):
         axes.set(xscale="log", yscale="log", xlabel="$t$ (s)", ylabel=label)
@@ -57,5 +56,5 @@ def draw(data: dict[str, xr.Dataset]) -> Figure:
         axes.legend(title=title, loc="upper center", bbox_to_anchor=(0.5, -0.2))
     numbers[0].set_ylabel("$n(M) / N$")
     numbers[-1].legend(title="$t$ (s)")
-    mark_panels(*panels.ravel())
+    mark_panels(*panels.flat)
     return figure

@@ -43,8 +43,7 @@ def draw(data: dict[str, xr.Dataset]) -> Figure:
     local.set(xscale="log", xlabel="$t$ (s)", ylabel=r"$\mathrm{d}\,\ln\langle M \rangle\,/\,\mathrm{d}\,\ln t$")
     names = []
     for place, (scene, runs) in enumerate(point for study in STUDIES for point in grid_points(data[study])):
-        sizes = runs["mean_cluster_size"].sel(distance_factor=FACTOR, method="nearest").isel(time=slice(1, None))
-        sizes = sizes.transpose("realization", "time", ...)
+        sizes = runs["mean_cluster_size"].sel(distance_factor=FACTOR, method="nearest").transpose("realization", "time")[:, 1:]
         t, exponents, colour = sizes["time"], local_exponent(sizes["time"], sizes), f"C{place}"
         band(growth, t, sizes, color=colour, label=named(scene))
         band(local, t, sizes.copy(data=exponents), color=colour)

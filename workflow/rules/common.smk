@@ -26,16 +26,17 @@ try:
         schema=yaml.safe_load((HERE / "workflow/schemas/config.schema.yaml").read_text()),
         figures=declared.studies_in(HERE / "workflow/figures"),
     )
+    declared.check_captions(HERE / "workflow/figures", HERE / "workflow/report")
+    EXPERIMENTS = digest.SOURCES / "experiments"
+    MEASURED = {kind: declared.experiments_in(HERE / f"workflow/{kind}", EXPERIMENTS) for kind in ("figures", "tables", "claims")}
 except ConfigError as error:
     sys.exit(f"configuration: {error}")
 
 OUTPUT = STUDIES.output
 STATES, RUNS, CLUSTERS, KEEPING = STUDIES.states(), STUDIES.runs(), STUDIES.clusters(), STUDIES.keeping()
-EXPERIMENTS = digest.SOURCES / "experiments"
-DRAWINGS, DRAWN_TABLES = (names_in(HERE / "workflow/figures") for names_in in (declared.experiments_in, declared.tables_in))
+DRAWINGS, DRAWN_TABLES = MEASURED["figures"], declared.tables_in(HERE / "workflow/figures")
 FIRST_TO_ASK = STUDIES.first_to_ask()
 TABLES, CLAIMS = (STUDIES.possible(declared.studies_in(HERE / f"workflow/{kind}")) for kind in ("tables", "claims"))
-MEASURED = {kind: declared.experiments_in(HERE / f"workflow/{kind}") for kind in ("tables", "claims")}
 STYLE = [*sorted(digest.SOURCES.glob("plotting*.py")), digest.SOURCES / "snapshots.py", digest.SOURCES / "granugas.mplstyle"]
 ANALYSIS = digest.digest(digest.ANALYSIS)
 FORMULAS = digest.digest(["granugas.analysis.*"])
@@ -51,7 +52,7 @@ REMOVED = []
 if workflow.is_main_process and not {"-n", "--dry-run", "--dryrun"} & {*sys.argv}:
     NAMES = STUDIES.names()
     STORED = {folder: NAMES[folder] for folder in ("runs", "positions", "clusters")} | {"studies": STUDIES.studies}
-    STORED["experiments"] = {name for of in (DRAWINGS, *MEASURED.values()) for names in of.values() for name in names}
+    STORED["experiments"] = {name for of in MEASURED.values() for names in of.values() for name in names}
     REMOVED = damaged(Path(f"{OUTPUT}/{folder}/{name}.nc") for folder, names in STORED.items() for name in sorted(names))
     for path in REMOVED:
         path.unlink(missing_ok=True)
