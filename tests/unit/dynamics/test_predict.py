@@ -8,7 +8,9 @@ from gases import lattice_gas
 from numba import njit
 
 from granugas.dynamics.events import predict
+from granugas.dynamics.events.effects.unequal import PARTICLES, Unequal
 from granugas.dynamics.events.engine import Engine
+from granugas.dynamics.events.memory import Table, allocate
 from granugas.dynamics.events.state import NOBODY
 from granugas.equilibrate import at_rest
 from granugas.scene import Scene
@@ -121,6 +123,14 @@ def test_rounding_is_that_of_both_velocities(approach, meet):
     position, velocity = np.array([[4.0, 4.0], [5.0, 4.0]]), np.array([[1.0, 0.0], [1.0 - approach, 0.0]])
     engine = Engine(scene, at_rest(position, velocity, (9.0, 9.0)))
     assert np.all((engine.arrays["disks"]["t_coll"] == 0.0) == meet)
+
+
+@pytest.mark.parametrize("radii", [(0.5, 0.5), (0.5, 0.2), (0.1, 0.3)])
+def test_they_meet_where_their_radii_say(radii, gas_of):
+    rows = allocate(2, PARTICLES)
+    rows["radius"], rows["mass"] = radii, 1.0
+    gas = gas_of([[2.0, 3.0], [4.0, 3.0]], [[0.5, 0.0], [-0.5, 0.0]], (9.0, 7.0), sizes=Unequal(Table(rows), 1.0))
+    np.testing.assert_allclose(gas.disks.rows["t_coll"], 2.0 - sum(radii), rtol=1e-14)
 
 
 @pytest.mark.parametrize(
