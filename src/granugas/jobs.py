@@ -58,6 +58,7 @@ def logged(path: str | Path) -> Iterator[Cost]:
     """
     if sys.platform == "linux":
         ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
+    end_at_once_on_ctrl_c()
     start_lightly()
     terminal = Terminal()
     try:
@@ -80,6 +81,16 @@ def logged(path: str | Path) -> Iterator[Cost]:
         terminal.finish(path)
     logging.getLogger("granugas").info("done")
     gc.freeze()
+
+
+def end_at_once_on_ctrl_c() -> None:
+    """Let Ctrl-C end this process, a job, as SIGTERM does, and not by an exception, unless it ignores it.
+
+    An exception may come anywhere: where xarray has taken a lock and not noted it yet, the job would wait for itself for
+    ever. What is half written has another name. A run that keeps checkpoints answers by itself (`interruption`).
+    """
+    if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
 def start_lightly() -> None:

@@ -1,9 +1,11 @@
 """What a job says and leaves, and what it does not load."""
 
+import signal
 import subprocess
 import sys
 from pathlib import Path
 
+import pytest
 from workflow.project import is_running, run_logged, wait_for
 
 
@@ -51,6 +53,23 @@ def test_an_error_is_the_last_line_of_the_log(tmp_path: Path) -> None:
     done = run_logged("raise ArithmeticError('no such gas')", tmp_path / "job.log")
     assert done.returncode == 1
     assert (tmp_path / "job.log").read_text().splitlines()[-1] == "ArithmeticError: no such gas"
+
+
+@pytest.mark.parametrize(("before", "ends"), [("default_int_handler", -signal.SIGINT), ("SIG_IGN", 0)])
+def test_ctrl_c_ends_a_job_at_once_unless_it_is_ignored(before: str, ends: int, tmp_path: Path) -> None:
+    """Without an exception, which nothing can catch and hang in."""
+    code = f"""
+import signal
+from granugas.jobs import logged
+signal.signal(signal.SIGINT, signal.{before})
+with logged({str(tmp_path / "job.log")!r}):
+    try:
+        signal.raise_signal(signal.SIGINT)
+    except BaseException:
+        print("caught")
+"""
+    assert subprocess.run([sys.executable, "-c", code]).returncode == ends
+    assert "caught" not in (tmp_path / "job.log").read_text()
 
 
 def test_a_job_dies_with_the_process_that_started_it(tmp_path: Path) -> None:
