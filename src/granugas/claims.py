@@ -11,28 +11,18 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-import xarray as xr
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-Numbers = NDArray[np.float64]
-Data = Mapping[str, xr.Dataset]
-"""Datasets by the names of studies and experiments."""
+from granugas.measured import Data, NotMeasured, Numbers, in_words
 
 SIGMAS = 3
 """So many standard errors count as no difference."""
-
-MANY = 9
-"""More numbers than these are told by their extremes."""
 
 HOLDS, FAILS, SLIP, NOT_MEASURED = "holds", "does not hold", "slip of the print", "not measured"
 PAPERS = {"A": "Luding & McNamara 1998", "B": "Luding & Herrmann 1999", "C": "of one's own"}
 """By the letter with which the ids of their claims begin."""
 
 COLUMNS = ("id", "section", "figure", "claim", "quantity", "expected", "measured", "error", "tolerance", "verdict", "remark")
-
-
-class NotMeasured(Exception):
-    """The data do not hold what a claim is about; says what is missing."""
 
 
 @dataclass(frozen=True)
@@ -56,14 +46,14 @@ class Expected:
     def __str__(self) -> str:
         low, high = np.asarray(self.low, float), np.asarray(self.high, float)
         if np.array_equal(low, high):
-            text = _numbers(low)
+            text = in_words(low)
         elif np.isinf(high).all():
-            text = f">= {_numbers(low)}"
+            text = f">= {in_words(low)}"
         elif np.isinf(low).all():
-            text = f"<= {_numbers(high)}"
+            text = f"<= {in_words(high)}"
         else:
-            text = f"{_numbers(low)} ... {_numbers(high)}"
-        return text if self.corrected is None else f"{text} in print, {_numbers(self.corrected)} corrected"
+            text = f"{in_words(low)} ... {in_words(high)}"
+        return text if self.corrected is None else f"{text} in print, {in_words(self.corrected)} corrected"
 
     @property
     def tolerance(self) -> str:
@@ -151,37 +141,6 @@ def claims_in(names: Mapping[str, Any]) -> list[Claim]:
     return [item for item in names.values() if isinstance(item, Claim)]
 
 
-def runs(data: Data, study: str, **point: float | int) -> xr.Dataset:
-    """The runs of one point of a study's grid; keys with one value that `point` does not name go, others stay dimensions.
-
-    Raises:
-        NotMeasured: no such study, or no runs at such a point.
-    """
-    if study not in data:
-        raise NotMeasured(f"no study {study}")
-    chosen = data[study]
-    for key, wanted in point.items():
-        there = np.atleast_1d(chosen[key].values if key in chosen.variables else chosen.attrs[key])
-        if not np.isclose(there, wanted, rtol=1e-9, atol=0).any():
-            raise NotMeasured(f"{study} has {key} = {_numbers(there)}, not {wanted:g}")
-        if key in chosen.dims:
-            chosen = chosen.isel({key: int(np.argmin(abs(there - wanted)))})
-    kept = ("realization", "time", "snapshot", "particle", "axis")
-    chosen = chosen.squeeze([dim for dim, size in chosen.sizes.items() if size == 1 and dim not in kept])
-    return chosen.dropna("realization", how="all", subset=["kinetic_energy"])
-
-
-def experiment(data: Data, name: str) -> xr.Dataset:
-    """The dataset of an experiment.
-
-    Raises:
-        NotMeasured: it is not there.
-    """
-    if name not in data:
-        raise NotMeasured(f"no experiment {name}")
-    return data[name]
-
-
 def verdict(expected: Expected, measured: ArrayLike, error: ArrayLike = 0.0) -> str:
     """Compare: holds / holds within ... / slip of the print / does not hold. Of several values the worst decides.
 
@@ -210,12 +169,12 @@ def verdict(expected: Expected, measured: ArrayLike, error: ArrayLike = 0.0) -> 
 
 
 def judge(claims: Iterable[Claim], data: Data) -> pd.DataFrame:
-    """One row a claim, with the columns `COLUMNS`; what cannot be measured says why.
+    """One row a claim in the order of their ids, with the columns `COLUMNS`; what cannot be measured says why.
 
     Raises:
         ValueError: two claims of one id.
     """
-    rows = [_row(one, data) for one in claims]
+    rows = [_row(one, data) for one in sorted(claims, key=lambda one: one.id)]
     ids = [row["id"] for row in rows]
     twice = sorted({name for name in ids if ids.count(name) > 1})
     if twice:
@@ -271,8 +230,8 @@ def _row(one: Claim, data: Data) -> dict[str, str]:
         return row | {"verdict": NOT_MEASURED, "remark": str(reason)}
     said = verdict(one.expected, measured, error)
     remark = (one.remark or "Not explained yet.") if said in (FAILS, SLIP) else ""
-    shown = _numbers(error, 2) if np.any(np.nan_to_num(error) > 0) else ""
-    return row | {"measured": _numbers(measured), "error": shown, "verdict": said, "remark": remark}
+    shown = in_words(error, 2) if np.any(np.nan_to_num(error) > 0) else ""
+    return row | {"measured": in_words(measured), "error": shown, "verdict": said, "remark": remark}
 
 
 def _excess(measured: Numbers, low: ArrayLike, high: ArrayLike) -> tuple[Numbers, Numbers]:
@@ -281,11 +240,3 @@ def _excess(measured: Numbers, low: ArrayLike, high: ArrayLike) -> tuple[Numbers
     excess = np.maximum(np.maximum(low - measured, measured - high), 0)
     ends = np.where(low - measured > measured - high, low, high)
     return excess, np.where(np.isfinite(ends), abs(ends), 0.0)
-
-
-def _numbers(values: ArrayLike, figures: int = 4) -> str:
-    """A few numbers in full, many by the least and the largest."""
-    values = np.ravel(values)
-    if len(values) > MANY:
-        return f"{np.nanmin(values):.{figures}g} to {np.nanmax(values):.{figures}g} ({len(values)} values)"
-    return ", ".join(f"{number:.{figures}g}" for number in values)

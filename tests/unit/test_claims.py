@@ -20,7 +20,6 @@ from granugas.claims import (
     NOT_MEASURED,
     SLIP,
     Claim,
-    NotMeasured,
     at_least,
     at_most,
     between,
@@ -28,11 +27,11 @@ from granugas.claims import (
     claims_in,
     judge,
     page,
-    runs,
     value,
     verdict,
 )
 from granugas.experiments import bouncing, contact
+from granugas.measured import NotMeasured
 
 PROJECT = Path(__file__).parents[2]
 FILES = sorted((PROJECT / "workflow/claims").glob("*.py"))
@@ -151,6 +150,11 @@ def test_ids_stand_once():
         judge([made(value(1), lambda data: 1.0)] * 2, {})
 
 
+def test_the_table_has_the_order_of_the_ids():
+    several = [made(value(1), lambda data: 1.0, id) for id in ("B-2-01", "A-4.1-01", "A-4-02")]
+    assert list(judge(several, {})["id"]) == ["A-4-02", "A-4.1-01", "B-2-01"]
+
+
 def test_claims_of_a_module_keep_their_order():
     first, second = (made(value(1), lambda data: 1.0, id) for id in ("A-6.1-02", "A-6.1-01"))
     assert claims_in({"b": first, "other": 3, "a": second}) == [first, second]
@@ -189,37 +193,6 @@ def test_a_page_without_failures_has_no_list_of_them():
 def test_bars_do_not_break_the_table():
     one = claim("A-7-01", quantity="|E - 1|", expected=value(1), why="")(lambda data: 1.0)
     assert r"| \|E - 1\| |" in page(judge([one], {}))
-
-
-@pytest.fixture
-def study():
-    energy = xr.DataArray(np.arange(24.0).reshape(1, 2, 3, 4), dims=("n_particles", "contact_time", "realization", "time"))
-    energy[0, 0, 2] = np.nan
-    coords = {"n_particles": [42], "contact_time": [1e-5, 1e-3], "realization": [0, 1, 2]}
-    return xr.Dataset({"kinetic_energy": energy}, coords, {"restitution": 0.4})
-
-
-def test_runs_of_a_point(study):
-    found = runs({"s": study}, "s", n_particles=42, contact_time=1e-5, restitution=0.4)["kinetic_energy"]
-    assert found.dims == ("realization", "time")
-    assert np.array_equal(found, study["kinetic_energy"].values[0, 0, :2])
-    other = runs({"s": study}, "s", contact_time=1e-3)["kinetic_energy"]
-    assert np.array_equal(other, study["kinetic_energy"].values[0, 1])
-    assert runs({"s": study}, "s", n_particles=42)["kinetic_energy"].dims == ("contact_time", "realization", "time")
-
-
-@pytest.mark.parametrize(
-    ("name", "point", "reason"),
-    [
-        ("t", {}, "no study t"),
-        ("s", {"n_particles": 5740}, "s has n_particles = 42, not 5740"),
-        ("s", {"contact_time": 1e-6}, "s has contact_time = 1e-05, 0.001, not 1e-06"),
-        ("s", {"restitution": 0.2}, "s has restitution = 0.4, not 0.2"),
-    ],
-)
-def test_what_is_missing_is_named(study, name, point, reason):
-    with pytest.raises(NotMeasured, match=reason.replace(".", r"\.")):
-        runs({"s": study}, name, **point)
 
 
 def test_there_are_enough_claims_of_every_section():

@@ -12,7 +12,7 @@ from worlds import alike, change, mirrored, times
 from granugas.analysis.theory import energy_after_collisions, homogeneous_cooling
 from granugas.claims import FAILS, HOLDS, NOT_MEASURED, judge
 
-FILES = [Path(__file__).parents[2] / f"workflow/claims/cluster1999_section{k}.py" for k in (2, 3)]
+FILES = sorted((Path(__file__).parents[2] / "workflow/claims").glob("cluster1999_section[23]*.py"))
 CLAIMS = {one.id: one for path in FILES for one in runpy.run_path(str(path))["CLAIMS"]}
 R, TC, BIG, OTHER = "cluster1999_restitutions", "cluster1999_contact_times", "cluster1999_large", "tc1998_restitutions"
 K, KX, KZ, T = "kinetic_energy", "kinetic_energy_x", "kinetic_energy_y", "sampling_time"

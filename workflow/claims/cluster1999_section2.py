@@ -5,7 +5,8 @@ import numpy as np
 from granugas.analysis.comparison import interpolated, largest_factor, log_mean
 from granugas.analysis.statistics import jackknife, mean_and_error
 from granugas.analysis.theory import collisions_until, homogeneous_cooling
-from granugas.claims import at_most, claim, claims_in, runs, value
+from granugas.claims import at_most, claim, claims_in, value
+from granugas.measured import runs, side_by_side
 
 STUDIES = ("cluster1999_restitutions", "cluster1999_large", "tc1998_restitutions")
 EXPERIMENTS = ()
@@ -35,7 +36,7 @@ def of_the_other_paper(data):
 def maxwellian_start(data):
     """Relaxed for a certain time with r = 1, the velocities have a Maxwell-Boltzmann distribution."""
     found = [mean_and_error(one["equilibration_kurtosis"].values.ravel()) for one in (small(data), large(data))]
-    return np.transpose(found)[0], np.transpose(found)[1]
+    return side_by_side(found)
 
 
 @claim(
@@ -86,7 +87,7 @@ def homogeneous_at_first(data):
     """The energy is well predicted by Eq. 1."""
     theory = np.log(homogeneous_cooling(TAU, 0.8))
     found = [jackknife(lambda v: largest_factor(log_mean(v), theory), v) for v in energies(data, TAU)]
-    return np.transpose(found)[0], np.transpose(found)[1]
+    return side_by_side(found)
 
 
 CLAIMS = claims_in(globals())

@@ -6,7 +6,8 @@ from granugas.analysis.comparison import interpolated, largest_factor, log_mean,
 from granugas.analysis.growth import growth_regime, local_exponent
 from granugas.analysis.statistics import fit_power_law, jackknife, mean_and_error
 from granugas.analysis.theory import homogeneous_cooling
-from granugas.claims import NotMeasured, at_least, at_most, claim, claims_in, runs, value
+from granugas.claims import at_least, at_most, claim, claims_in, value
+from granugas.measured import NotMeasured, runs, series
 
 STUDIES = ("cluster1999_large",)
 EXPERIMENTS = ()
@@ -38,13 +39,13 @@ def large(data):
 def curves(data, name):
     """t, and a series of (realization, time)."""
     t, found = large(data)
-    return t, found[name].transpose("realization", "time").values
+    return t, series(found[name])
 
 
 def excess(data):
     """t, and K by that of Eq. 1."""
     t, found = large(data)
-    return t, (found["kinetic_energy"] / homogeneous_cooling(found["tau"], 0.8)).transpose("realization", "time").values
+    return t, series(found["kinetic_energy"] / homogeneous_cooling(found["tau"], 0.8))
 
 
 def at(curve, times):
@@ -365,7 +366,7 @@ def departure_and_clusters(data):
     _, departure = excess(data)
     if 1.1 not in found["distance_factor"]:
         raise NotMeasured("no clusters for S_c = 1.1")
-    size = found["mean_cluster_size"].sel(distance_factor=1.1).transpose("realization", "time").values
+    size = series(found["mean_cluster_size"].sel(distance_factor=1.1))
     late = t >= 0.2
     ranks = [np.argsort(np.argsort(curve[:, late], axis=1), axis=1) for curve in (departure, size)]
     return mean_and_error([np.corrcoef(a, b)[0, 1] for a, b in zip(*ranks, strict=True)])

@@ -9,7 +9,8 @@ from granugas.analysis.inequality import share_of_largest
 from granugas.analysis.mixing import differences_nearby, internal_energy_share
 from granugas.analysis.statistics import mean_and_error
 from granugas.analysis.structure import density_at, density_field, density_variance
-from granugas.claims import NotMeasured, at_least, claim, claims_in, runs
+from granugas.claims import at_least, claim, claims_in
+from granugas.measured import NotMeasured, runs
 from granugas.snapshots import relative_energy
 
 STUDIES = ("cluster1999_large",)

@@ -5,7 +5,8 @@ import numpy as np
 from granugas.analysis.comparison import interpolated, log_mean, smallest_step
 from granugas.analysis.growth import growth_regime, local_exponent
 from granugas.analysis.statistics import fit_power_law, jackknife, mean_and_error
-from granugas.claims import NotMeasured, at_least, at_most, between, claim, claims_in, runs, value
+from granugas.claims import at_least, at_most, between, claim, claims_in, value
+from granugas.measured import NotMeasured, runs
 
 STUDIES = ("cluster1999_large",)
 EXPERIMENTS = ()

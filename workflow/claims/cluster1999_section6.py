@@ -7,7 +7,8 @@ from granugas.analysis.criteria import busy, cluster_sizes, contacts, measures, 
 from granugas.analysis.sizes import middle_sizes, octaves, scaling, size_distribution
 from granugas.analysis.statistics import fit_power_law, mean_and_error
 from granugas.analysis.structure import mean_wavelength, structure_factor
-from granugas.claims import NotMeasured, at_least, at_most, between, claim, claims_in, runs, value
+from granugas.claims import at_least, at_most, between, claim, claims_in, value
+from granugas.measured import NotMeasured, runs, side_by_side
 
 STUDIES = ("cluster1999_large",)
 EXPERIMENTS = ()
@@ -25,7 +26,7 @@ def large(data):
     return runs(data, "cluster1999_large", n_particles=N)
 
 
-def series(data, name, factor):
+def at_factor(data, name, factor):
     """A cluster observable over (realization, time, ...) at one S_c, without t = 0, and the times."""
     found = large(data)
     if not np.isclose(found["distance_factor"], factor).any():
@@ -192,7 +193,7 @@ def any_dimension(data):
 )
 def snapshots_are_enough(data):
     """(iii) The distance criterion can be applied to snapshots of a simulation."""
-    counts, _ = series(data, "cluster_count", 1.1)
+    counts, _ = at_factor(data, "cluster_count", 1.1)
     found = [find_clusters(x, box, d, [1.1]).counts[0] for x, _, _, box, d in shots(data, 446.6)]
     return mean_and_error(np.array(found) / counts[:, -1])
 
@@ -286,7 +287,7 @@ def fewer_clusters(data):
     """During the evolution of the system the number of clusters decreases, for every S_c."""
     ratios = [
         counts[:, -1] / counts[:, 0]
-        for counts, _ in (series(data, "cluster_count", s) for s in (1.01, 1.05, 1.1, 1.2, 1.3, 1.4))
+        for counts, _ in (at_factor(data, "cluster_count", s) for s in (1.01, 1.05, 1.1, 1.2, 1.3, 1.4))
     ]
     return mean_and_error(np.stack(ratios, axis=1))
 
@@ -301,7 +302,7 @@ def fewer_clusters(data):
 )
 def most_particles(data):
     """Finally most particles in the system belong to the largest cluster."""
-    shares = [series(data, "largest_cluster_size", factor)[0][:, -1] / N for factor in (1.05, 1.1, 1.2)]
+    shares = [at_factor(data, "largest_cluster_size", factor)[0][:, -1] / N for factor in (1.05, 1.1, 1.2)]
     return mean_and_error(np.stack(shares, axis=1))
 
 
@@ -315,7 +316,7 @@ def most_particles(data):
 )
 def not_long_enough(data):
     """About 10^5 particles are not enough to examine cluster growth over long enough times."""
-    sizes, times = series(data, "largest_cluster_size", 1.2)
+    sizes, times = at_factor(data, "largest_cluster_size", 1.2)
     reached = sizes >= N / 10
     if not reached.any(axis=1).all():
         raise NotMeasured("the largest cluster stays below a tenth of the particles")
@@ -336,8 +337,8 @@ def ten_times_as_many(data):
 
 def distribution(data, factor, times):
     """Clusters in octaves of sizes (realization, time, size), their edges, and M_w (realization, time), next to some times."""
-    numbers, there = series(data, "cluster_size_distribution", factor)
-    weighted, _ = series(data, "weighted_cluster_size", factor)
+    numbers, there = at_factor(data, "cluster_size_distribution", factor)
+    weighted, _ = at_factor(data, "weighted_cluster_size", factor)
     chosen = [abs(np.log(there / time)).argmin() for time in times]
     numbers, lower, upper = octaves(numbers[:, chosen], large(data)["cluster_size"].values)
     return numbers, lower, upper, weighted[:, chosen]
@@ -371,7 +372,7 @@ def sizes_scale(data):
     for factor in (1.05, 1.1, 1.2):
         numbers, lower, upper, weighted = distribution(data, factor, (1.28, 5.12, 20.48))
         found.append(scaling(numbers, weighted, lower, upper, N, 2))
-    return np.transpose(found)[0], np.transpose(found)[1]
+    return side_by_side(found)
 
 
 @claim(

@@ -3,7 +3,8 @@
 import numpy as np
 
 from granugas.analysis.theory import collapse_restitution
-from granugas.claims import at_least, at_most, claim, claims_in, runs, value
+from granugas.claims import at_least, at_most, claim, claims_in, value
+from granugas.measured import runs
 
 STUDIES = ("tc1998_collapse", "tc1998_contact_times")
 EXPERIMENTS = ()

@@ -3,7 +3,8 @@
 import numpy as np
 
 from granugas.analysis.theory import released_square_velocity, staying_period
-from granugas.claims import at_least, at_most, between, claim, claims_in, experiment, value
+from granugas.claims import at_least, at_most, between, claim, claims_in, value
+from granugas.measured import experiment
 
 STUDIES = ()
 EXPERIMENTS = ("bouncing", "contact")

@@ -7,8 +7,9 @@ from granugas.analysis.comparison import onset
 from granugas.analysis.elastic import whole_runs
 from granugas.analysis.statistics import jackknife, mean_and_error
 from granugas.analysis.theory import elastic_collision_fraction, elastic_particle_fraction, prefactor_rate, reduced_pressure
-from granugas.claims import NotMeasured, at_least, at_most, between, claim, claims_in, experiment, runs, value
+from granugas.claims import at_least, at_most, between, claim, claims_in, value
 from granugas.geometry import CLOSE_PACKING
+from granugas.measured import NotMeasured, experiment, runs
 
 STUDIES = ("tc1998_elastic_n1435", "tc1998_elastic_n42", "tc1998_elastic_n16680")
 EXPERIMENTS = ("volumes",)

@@ -8,7 +8,8 @@ from granugas.analysis.comparison import log_mean, onset, smallest_step
 from granugas.analysis.statistics import jackknife, mean_and_error
 from granugas.analysis.structure import density_at, strongest_wavelength, structure_length
 from granugas.analysis.theory import collapse_restitution, collisions_until, homogeneous_cooling
-from granugas.claims import NotMeasured, at_least, at_most, between, claim, claims_in, runs, value
+from granugas.claims import at_least, at_most, between, claim, claims_in, value
+from granugas.measured import NotMeasured, common, runs, series, side_by_side
 
 SIZES = (42, 378, 1435, 5740, 22960, 97776)
 STUDIES = (
@@ -34,7 +35,7 @@ def of_size(data, n):
 def energies(data, n):
     """tau without t = 0, and T of the realizations there."""
     found = of_size(data, n).isel(time=slice(1, None))
-    return found["tau"].mean("realization").values, found["kinetic_energy"].transpose("realization", "time").values
+    return common(found["tau"]), series(found["kinetic_energy"])
 
 
 def cooling(tau):
@@ -112,7 +113,7 @@ def measured_initial_rate(data):
         early = of_size(data, n).isel(time=1)
         tau = early["tau"].values
         found.append(mean_and_error(early["collision_rate"].values * tau / collisions_until(tau, 0.4)))
-    return np.transpose(found)[0], np.transpose(found)[1]
+    return side_by_side(found)
 
 
 @claim(
@@ -132,7 +133,7 @@ def homogeneous_at_first(data):
         return lambda values: np.exp(abs(log_mean(values[:, early]) - cooling(tau[early])).max())
 
     found = [jackknife(factor(tau), values) for tau, values in (energies(data, n) for n in SIZES[1:])]
-    return np.transpose(found)[0], np.transpose(found)[1]
+    return side_by_side(found)
 
 
 @claim(
@@ -149,7 +150,7 @@ def onset_of_clustering(data):
         return lambda values: onset(tau, log_mean(values) - cooling(tau), np.log(1.1))
 
     found = [jackknife(first(tau), values) for tau, values in (energies(data, n) for n in SIZES[3:])]
-    return np.transpose(found)[0], np.transpose(found)[1]
+    return side_by_side(found)
 
 
 @claim(
@@ -197,7 +198,7 @@ def independent_of_size(data):
         return np.exp(abs(log_mean(small[:, early]) - log_mean(large[:, early])).max())
 
     found = [jackknife(factor, energies(data, n)[1], large) for n in SIZES[2:5]]
-    return np.transpose(found)[0], np.transpose(found)[1]
+    return side_by_side(found)
 
 
 def departure(data, n):
@@ -250,12 +251,12 @@ def rate_homogeneous_at_first(data):
     found = []
     for n in SIZES[3:]:
         some = of_size(data, n)
-        tau = some["tau"].mean("realization").values
+        tau = common(some["tau"])
         early = np.flatnonzero((tau <= 5) & (tau > 0))
         expected = (collisions_until(tau[early], 0.4) - collisions_until(tau[early - 1], 0.4)) / (tau[early] - tau[early - 1])
-        rates = (some["collision_rate"] / some["enskog_rate"]).transpose("realization", "time").values[:, early]
+        rates = series(some["collision_rate"] / some["enskog_rate"])[:, early]
         found.append(jackknife(lambda r, e=expected: np.exp(abs(np.log(r.mean(axis=0) / e)).max()), rates))
-    return np.transpose(found)[0], np.transpose(found)[1]
+    return side_by_side(found)
 
 
 @claim(
@@ -270,15 +271,15 @@ def rate_departs(data):
     found = []
     for n in SIZES[3:]:
         some = of_size(data, n).isel(time=slice(1, None))
-        tau = some["tau"].mean("realization").values
+        tau = common(some["tau"])
         middle = np.concatenate([[tau[0] / 2], (tau[1:] + tau[:-1]) / 2])
-        rates = (some["collision_rate"] / some["enskog_rate"]).transpose("realization", "time").values
+        rates = series(some["collision_rate"] / some["enskog_rate"])
 
         def first(r, tau=tau, middle=middle):
             return onset(tau, abs(np.log(r.mean(axis=0)) - cooling(middle) / 2), np.log(1.25))
 
         found.append(jackknife(first, rates))
-    return np.transpose(found)[0], np.transpose(found)[1]
+    return side_by_side(found)
 
 
 @claim(
@@ -376,7 +377,7 @@ def area_fraction(data):
 def maxwellian_start(data):
     """The start states are equilibrated with r = 1 until their velocities are Maxwellian."""
     found = [mean_and_error(of_size(data, n)["equilibration_kurtosis"].values.ravel()) for n in SIZES]
-    return np.transpose(found)[0], np.transpose(found)[1]
+    return side_by_side(found)
 
 
 CLAIMS = claims_in(globals())

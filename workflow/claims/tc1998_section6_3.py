@@ -8,7 +8,8 @@ from granugas.analysis.comparison import largest_factor, log_mean, onset, smalle
 from granugas.analysis.statistics import jackknife, mean_and_error
 from granugas.analysis.theory import homogeneous_cooling
 from granugas.analysis.windows import equal_windows, ratio_of_changes, snapshot_means
-from granugas.claims import NotMeasured, at_least, at_most, between, claim, claims_in, runs, value
+from granugas.claims import at_least, at_most, between, claim, claims_in, value
+from granugas.measured import NotMeasured, common, runs, series, side_by_side
 
 STUDIES = ("tc1998_restitutions",)
 EXPERIMENTS = ()
@@ -25,8 +26,8 @@ def of(data, restitution):
 def energies(data, restitution):
     """tau without t = 0, T of (realization, tau), and ln T of Eq. 23."""
     found = of(data, restitution).isel(time=slice(1, None))
-    tau = found["tau"].mean("realization").values
-    values = found["kinetic_energy"].transpose("realization", "time").values
+    tau = common(found["tau"])
+    values = series(found["kinetic_energy"])
     return tau, values, np.log(homogeneous_cooling(tau, restitution))
 
 
@@ -69,7 +70,7 @@ def only_nearly_elastic(data):
     for r in RESTITUTIONS[1:]:
         _, values, theory = energies(data, r)
         found.append(jackknife(lambda v, t=theory: largest_factor(log_mean(v), t), values))
-    return np.transpose(found)[0], np.transpose(found)[1]
+    return side_by_side(found)
 
 
 @claim(
@@ -166,7 +167,7 @@ def number_of_collisions(data):
 def negligible_fraction(data):
     """For r >= .8 the fraction of elastic collisions is below 2e-3 at long times."""
     found = [mean_and_error(late_shares(data, r)[0]) for r in RESTITUTIONS[:4]]
-    return np.transpose(found)[0], np.transpose(found)[1]
+    return side_by_side(found)
 
 
 @claim(

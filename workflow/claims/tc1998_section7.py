@@ -5,7 +5,8 @@ import numpy as np
 from granugas.analysis.statistics import jackknife, mean_and_error
 from granugas.analysis.structure import density_variance
 from granugas.analysis.theory import elastic_collision_fraction
-from granugas.claims import NotMeasured, at_least, at_most, claim, claims_in, runs, value
+from granugas.claims import at_least, at_most, claim, claims_in, value
+from granugas.measured import NotMeasured, runs, series
 
 STUDIES = ("tc1998_contact_times", "tc1998_collapse", "tc1998_outlook_cooling", "tc1998_outlook_transition")
 EXPERIMENTS = ()
@@ -31,9 +32,7 @@ def same_until_collapse(data):
     times = times[(times > 0) & (times < 0.9 * float(hard["stop_time"].min()))]
     if not len(times):
         raise NotMeasured("no common sample before the collapse")
-    hard, tiny = (
-        one["kinetic_energy"].sel(time=times, method="nearest").transpose("realization", "time").values for one in (hard, tiny)
-    )
+    hard, tiny = (series(one["kinetic_energy"].sel(time=times, method="nearest")) for one in (hard, tiny))
     return float(abs(tiny / hard - 1).max())
 
 

@@ -97,7 +97,7 @@ rule claims:
     log:
         f"{OUTPUT}/logs/claims.log",
     params:
-        formulas=digest.digest(["granugas.analysis.*", "granugas.claims"]),
+        formulas=digest.digest(["granugas.analysis.*", "granugas.claims", "granugas.measured"]),
     script:
         "../scripts/claims.py"
 
