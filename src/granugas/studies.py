@@ -5,17 +5,15 @@ Pure data and light: nothing here simulates, reads results or knows of the workf
 
 import itertools
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import PurePath
 from typing import Any
 
 from granugas.configuration import MISSING, ConfigError, Written, check_structure, unknown, with_defaults
+from granugas.grid import ascending, distinct, number_of_runs, rounded, scenes
 from granugas.resources import memory_at_hand, memory_of
 from granugas.runs import Run, digest_of
-from granugas.scene import DEFAULTS, SCENE_KEYS, Scene, SceneError, check_value
-
-FLOAT_KEYS = {key for key, value in DEFAULTS.items() if isinstance(value, float)}
 
 MOST_RUNS = 10_000
 """Runs of a configuration that does not say `allow_large: true`; realizations of one job are so many runs."""
@@ -204,12 +202,12 @@ def _study(name: str, block: Mapping[str, Any], seed: int, filmed: bool) -> Stud
     for key in block["scene"]:
         if key in block["grid"]:
             raise ConfigError(f"{where}.scene.{key}", block["scene"][key], f"allowed once, {where}.grid names it too")
-    until = {key: _rounded(value) for key, value in block["until"].items()}
-    snapshots = _ascending(f"{where}.snapshots", block.get("snapshots", ()))
+    until = {key: rounded(value) for key, value in block["until"].items()}
+    snapshots = ascending(f"{where}.snapshots", block.get("snapshots", ()))
     if "time" in until and snapshots and snapshots[-1] > until["time"]:
         allowed = f"allowed are times from 0 to {until['time']:g} s (until.time)"
         raise ConfigError(f"{where}.snapshots", snapshots[-1], allowed)
-    factors = _ascending(f"{where}.distance_factors", block.get("distance_factors", ()))
+    factors = ascending(f"{where}.distance_factors", block.get("distance_factors", ()))
     if factors and block["realizations_per_job"] > 1:
         allowed = f"allowed is 1 where clusters are analysed ({where}.distance_factors)"
         raise ConfigError(f"{where}.realizations_per_job", block["realizations_per_job"], allowed)
@@ -218,13 +216,13 @@ def _study(name: str, block: Mapping[str, Any], seed: int, filmed: bool) -> Stud
         "until": until,
         "samples": _samples(f"{where}.samples", block["samples"], until),
         "snapshots": snapshots,
-        "equilibration": _rounded(block["equilibration"]["collisions_per_particle"]),
+        "equilibration": rounded(block["equilibration"]["collisions_per_particle"]),
         "keep_positions": bool(factors) or filmed,
         "max_collisions": block.get("max_collisions"),
     }
     runs = [
         Run(scene=scene, realizations=chunk, keep_motion=filmed and 0 in chunk, **common)
-        for scene in _scenes(where, block["grid"], block["scene"])
+        for scene in scenes(where, block["grid"], block["scene"])
         for chunk in _chunks(block["realizations"], block["realizations_per_job"])
     ]
     has = memory_at_hand()
@@ -247,59 +245,16 @@ def _refuse_too_large(where: str, run: Run, has: int) -> None:
 
 def _refuse_too_many(studies: Mapping[str, Mapping[str, Any]], schema: Mapping[str, Any]) -> None:
     """Count the runs before any is made; at r = 1 one run of hard particles serves all contact times."""
-    numbers = {name: _number_of_runs(with_defaults(block, schema)) for name, block in studies.items()}
+    numbers = {name: number_of_runs(with_defaults(block, schema)) for name, block in studies.items()}
     total, largest = sum(numbers.values()), max(numbers, key=numbers.__getitem__)
     if total > MOST_RUNS:
         allowed = f"allowed are {MOST_RUNS} runs; with allow_large: true at the top level, any number"
         raise ConfigError(f"studies.{largest}", Written(f"{numbers[largest]} runs of {total} in all"), allowed)
 
 
-def _number_of_runs(block: Mapping[str, Any]) -> int:
-    axes = {key: value if isinstance(value, list) else [value] for key, value in block["grid"].items()}
-    times, restitutions = len(axes.pop("contact_time", [0.0])), axes.pop("restitution", [0.0])
-    methods = axes.pop("dynamics", [DEFAULTS["dynamics"]])
-    pairs = sum(1 if r == 1 and method == DEFAULTS["dynamics"] else times for r in restitutions for method in methods)
-    return block["realizations"] * pairs * math.prod(map(len, axes.values()))
-
-
 def _chunks(realizations: int, size: int) -> Iterator[tuple[int, ...]]:
     """The realizations of each job; chunks do not move when realizations are added."""
     return (tuple(range(first, min(first + size, realizations))) for first in range(0, realizations, size))
-
-
-def _scenes(where: str, grid: Mapping[str, Any], settings: Mapping[str, Any]) -> Iterator[Scene]:
-    """Every point of the grid; at r = 1 one scene holds all contact times."""
-    from granugas.initial import check_lattice
-
-    places = {key: f"{where}.grid.{key}" for key in SCENE_KEYS} | {key: f"{where}.scene.{key}" for key in settings}
-    axes = {key: _axis(places, key, value) for key, value in {**grid, **settings}.items()}
-    times = axes.get("contact_time", (DEFAULTS["contact_time"],))
-    for point in itertools.product(*axes.values()):
-        values = DEFAULTS | dict(zip(axes, point, strict=True))
-        scene = _said_here(places, Scene, **values)
-        if len(times) > 1 and scene.one_trajectory:
-            if values["contact_time"] != times[0]:
-                continue
-            scene = replace(scene, contact_time=tuple(sorted(times)))
-        _said_here(places, check_lattice, scene)
-        yield scene
-
-
-def _axis(places: Mapping[str, str], key: str, value: Any) -> tuple[Any, ...]:
-    """The values of a key of the grid, each one that a scene can have."""
-    given = value if isinstance(value, list) else [value]
-    values = [_rounded(item) if key in FLOAT_KEYS and type(item) in (int, float) else item for item in given]
-    for item in values:
-        _said_here(places, check_value, key, item)
-    return _distinct(places[key], values)
-
-
-def _said_here(places: Mapping[str, str], build: Callable[..., Any], *arguments: Any, **values: Any) -> Any:
-    """Call, and let a scene's error name the place in the configuration."""
-    try:
-        return build(*arguments, **values)
-    except SceneError as error:
-        raise ConfigError(places.get(error.key, error.key), error.value, error.allowed) from error
 
 
 def _samples(where: str, block: Mapping[str, Any], until: Mapping[str, float]) -> dict[str, Any]:
@@ -308,7 +263,7 @@ def _samples(where: str, block: Mapping[str, Any], until: Mapping[str, float]) -
     if key not in until:
         raise ConfigError(f"{where}.axis", axis, f"allowed only where until.{key} is given")
     limit, count = until[key], block["count"]
-    first = _rounded(block.get("first", limit / count if block["spacing"] == "linear" else limit * 1e-4))
+    first = rounded(block.get("first", limit / count if block["spacing"] == "linear" else limit * 1e-4))
     if first >= limit:
         raise ConfigError(f"{where}.first", first, f"allowed is a number > 0 and < {limit:g} (until.{key})")
     return {"spacing": block["spacing"], "count": count, "first": first, "axis": axis}
@@ -321,23 +276,4 @@ def _asked_for(names: Sequence[str], possible: Mapping[str, Any], left_out: Mapp
             raise ConfigError("figures", name, f"allowed where its studies are configured; {missing} is not")
         if name not in possible:
             raise unknown("figures", name, name, possible, kind="figure")
-    return _distinct("figures", names)
-
-
-def _ascending(where: str, values: Iterable[float]) -> tuple[float, ...]:
-    return tuple(sorted(_distinct(where, [_rounded(value) for value in values])))
-
-
-def _distinct(where: str, values: Sequence[Any]) -> tuple[Any, ...]:
-    for position, value in enumerate(values):
-        if value in values[:position]:
-            raise ConfigError(where, value, "this value stands twice; allowed is once")
-    return tuple(values)
-
-
-def _rounded(value: float) -> float:
-    """To 12 significant digits, so that runs of one address are equal in every bit."""
-    try:
-        return float(f"{float(value):.12g}")
-    except OverflowError:
-        return math.inf
+    return distinct("figures", names)
