@@ -207,6 +207,7 @@ def test_why_it_stops():
     assert engine.involved().size == 0 and len(engine.cells) == 2
 
 
+@pytest.mark.compiled
 def test_energy_momentum_and_overlaps():
     """What is lost is counted; without loss, energy is kept to the error of a step within contacts."""
     for r, error in ((1.0, 1e-4), (0.8, 3e-3)):
@@ -259,6 +260,7 @@ def test_a_wall_gives_back_r_after_its_t_c(r, wall_time):
     assert found["wall_pressure"] == pytest.approx(force / area * unit / (mean / 2), rel=0.15)
 
 
+@pytest.mark.compiled
 def test_a_job_of_the_workflow_has_nothing_to_find():
     """Start states, runs, pool, checks, at r = 1 and below."""
     warm_up([GAS])

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from numba import njit
+from plain import python_of
 
 from granugas.dynamics.events import vectors
 
@@ -39,7 +40,7 @@ def turning(w, a, b):
     return vectors.cross(w, a), vectors.torque(a, b)
 
 
-@pytest.mark.parametrize("run", [turning, turning.py_func], ids=["compiled", "plain"])
+@pytest.mark.parametrize("run", [turning, python_of(turning)], ids=["compiled", "plain"])
 def test_spins_in_a_plane_are_those_in_space(run):
     a, b, w = np.random.default_rng(4).normal(size=(3, 3))
     np.testing.assert_allclose(run(tuple(w), tuple(a), tuple(b)), (np.cross(w, a), np.cross(a, b)), rtol=1e-15)
@@ -50,7 +51,7 @@ def test_spins_in_a_plane_are_those_in_space(run):
 
 
 @pytest.mark.parametrize("dimensions", [1, 2, 3])
-@pytest.mark.parametrize("run", [everything, everything.py_func], ids=["compiled", "plain"])
+@pytest.mark.parametrize("run", [everything, python_of(everything)], ids=["compiled", "plain"])
 def test_as_numpy_has_it(dimensions, run):
     a, b, c = np.random.default_rng(dimensions).normal(size=(3, dimensions))
     last = a.copy()
