@@ -1,4 +1,4 @@
-"""The package from the shell: `python -m granugas run ...`, `bench ...`, `compare ...`, `prune ...`, `plan ...`."""
+"""The package from the shell: `python -m granugas <command> ...`."""
 
 import argparse
 import json
