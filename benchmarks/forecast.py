@@ -14,9 +14,9 @@ import pandas as pd
 import yaml
 
 from granugas import studies
-from granugas.calibration import calibration
 from granugas.configuration import merged
-from granugas.plan import forecast
+from granugas.planning.calibration import calibration
+from granugas.planning.plan import forecast
 
 ROOT = Path(__file__).parents[1]
 WORK = ("equilibrate", "simulate", "clusters", "pool")

@@ -2,7 +2,7 @@
 
     python benchmarks/on_paper.py phase_diagram --configfile phase.yaml --cores 500
 
-Times are those that jobs ask a batch system for, without their margin (granugas.batch).
+Times are those that jobs ask a batch system for, without their margin (granugas.planning.batch).
 """
 
 import argparse
@@ -12,9 +12,10 @@ from pathlib import Path
 
 import yaml
 
-from granugas import batch, studies
+from granugas import studies
 from granugas.configuration import merged
-from granugas.expected import end_of
+from granugas.planning import batch
+from granugas.planning.expected import end_of
 from granugas.resources import memory_of
 from granugas.runs import Run
 

@@ -20,11 +20,11 @@ from matplotlib import style
 from matplotlib.figure import Figure
 from numba import njit
 
-from granugas import plotting
 from granugas.analysis.clusters import find_clusters
 from granugas.benchmark import Timing, always_contact_time, time_collisions, time_span
 from granugas.dynamics.events.engine import Engine
 from granugas.equilibrate import equilibrate, state_of
+from granugas.plotting.style import COLUMN, STYLE, save
 from granugas.scene import Scene
 from granugas.storage.files import replacing
 
@@ -146,12 +146,12 @@ def draw(table: pd.DataFrame, folder: Path) -> None:
     sizes = table[table["what"].str.startswith("size N = ")]
     n = sizes["what"].str.removeprefix("size N = ").astype(int)
     spread = np.abs(sizes[["fastest", "slowest"]].to_numpy().T - sizes["value"].to_numpy())
-    with style.context(plotting.STYLE):
-        figure = Figure(figsize=(plotting.COLUMN, 0.75 * plotting.COLUMN))
+    with style.context(STYLE):
+        figure = Figure(figsize=(COLUMN, 0.75 * COLUMN))
         axes = figure.subplots()
         axes.errorbar(n, sizes["value"], yerr=spread, marker="o", capsize=2)
         axes.set(xscale="log", xlabel="number of disks $N$", ylabel="time per collision (ns)", ylim=(0, None))
-        plotting.save(figure, folder / "bench.png", folder / "bench.pdf")
+        save(figure, folder / "bench.png", folder / "bench.pdf")
 
 
 if __name__ == "__main__":

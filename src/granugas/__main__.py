@@ -96,10 +96,10 @@ def _prune(options: argparse.Namespace) -> int:
 
 
 def _plan(options: argparse.Namespace) -> int:
-    from granugas.calibration import calibration
     from granugas.configuration import unknown
     from granugas.digest import physics
-    from granugas.plan import as_numbers, forecast, table
+    from granugas.planning.calibration import calibration
+    from granugas.planning.plan import as_numbers, forecast, table
 
     asked, config = _asked(options)
     if options.study is not None and options.study not in asked.studies:
@@ -115,8 +115,8 @@ def _plan(options: argparse.Namespace) -> int:
 def _choose(options: argparse.Namespace, asked: "Studies", config: dict[str, Any]) -> int:
     import yaml
 
-    from granugas.calibration import calibration
-    from granugas.choice import cheapest, overlay
+    from granugas.planning.calibration import calibration
+    from granugas.planning.choice import cheapest, overlay
     from granugas.storage.files import replacing
 
     if options.study is None:

@@ -12,10 +12,10 @@ import pytest
 import xarray as xr
 from made_up import collapse_study, cooling_study, elastic_study
 
-from granugas import plotting
 from granugas.analysis import theory
 from granugas.analysis.clusters import find_clusters
 from granugas.analysis.statistics import fit_power_law
+from granugas.plotting import style
 from granugas.scene import Scene
 from granugas.simulate import simulate
 from granugas.storage.pooling import pool
@@ -86,7 +86,7 @@ def test_every_figure_draws(name, realizations, contact_times, tmp_path):
     studies = figure_file["STUDIES"] if experiments else figure_file["STUDIES"] or ("tc1998_contact_times",)
     made = {name: measured(name) for name in experiments} | {name: costs() for name in figure_file.get("TABLES", ())}
     figure = figure_file["draw"](needed_by(studies, realizations, contact_times) | made)
-    plotting.save(figure, tmp_path / "figure.png")
+    style.save(figure, tmp_path / "figure.png")
     assert (tmp_path / "figure.png").stat().st_size > 10_000
     assert all(axes.has_data() for axes in figure.axes)
 
@@ -149,7 +149,7 @@ def test_fig7_gives_window_exponents_and_intervals():
     sizes = data["mean_cluster_size"].squeeze().sel(distance_factor=1.2)
     fit = fit_power_law(data["time"], sizes, figure_file["WINDOW"])
     assert sum("1 to 40 s" in word and "95 %" in word and "4 runs" in word for word in words) == 2
-    assert f"$1.2$: {plotting.exponent(fit)}" in words
+    assert f"$1.2$: {style.exponent(fit)}" in words
     alone = texts(figure_file["draw"]({"cluster1999_large": cooling_study(1, clusters=True)}))
     assert not any(r"\pm" in word for word in alone)
     assert sum("no interval" in word for word in alone) == 2

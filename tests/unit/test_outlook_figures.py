@@ -12,7 +12,7 @@ from granugas.analysis.criteria import compare
 from granugas.analysis.sizes import octaves, scaling
 from granugas.analysis.statistics import fit_power_law
 from granugas.analysis.structure import mean_wavelength, structure_factor
-from granugas.plotting import exponent
+from granugas.plotting.style import exponent
 
 FIGURES = Path(__file__).parents[2] / "workflow/figures"
 LARGE, RUNS, N, D = "cluster1999_large", 3, 400, 0.02

@@ -11,7 +11,7 @@ from granugas.analysis.statistics import mean_and_error
 from granugas.analysis.structure import density_at, density_field, density_variance
 from granugas.claims import at_least, claim, claims_in
 from granugas.measured import NotMeasured, runs
-from granugas.snapshots import relative_energy
+from granugas.plotting.snapshots import relative_energy
 
 STUDIES = ("cluster1999_large",)
 EXPERIMENTS = ()

@@ -3,8 +3,7 @@
 import xarray as xr
 from matplotlib.figure import Figure
 
-from granugas.plotting import styled
-from granugas.plotting_accuracy import (
+from granugas.plotting.accuracy import (
     accuracy_figure,
     arithmetic,
     contact_time,
@@ -15,6 +14,7 @@ from granugas.plotting_accuracy import (
     sampling,
     sizes,
 )
+from granugas.plotting.style import styled
 
 SECTION = "Accuracy"
 STUDIES = ("methods_events", "methods_soft_spheres", "methods_dsmc")

@@ -5,8 +5,8 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from granugas.analysis.inequality import gini, lorenz_curve, poisson_gini, share_of_largest
-from granugas.plotting import COLUMN, shades, styled
-from granugas.plotting_runs import grid_points
+from granugas.plotting.runs import grid_points
+from granugas.plotting.style import COLUMN, shades, styled
 from granugas.record import FREQUENCY_WINDOW
 
 STUDIES = ("cluster1999_large",)

@@ -5,9 +5,9 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from granugas.analysis.theory import energy_after_collisions, homogeneous_cooling
-from granugas.plotting import THEORY, shades, styled
-from granugas.plotting_papers import cooling_views
-from granugas.plotting_runs import grid_points, power_line
+from granugas.plotting.papers import cooling_views
+from granugas.plotting.runs import grid_points, power_line
+from granugas.plotting.style import THEORY, shades, styled
 
 STUDIES = ("cluster1999_restitutions",)
 

@@ -5,9 +5,9 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from granugas.analysis.theory import energy_after_collisions, homogeneous_cooling
-from granugas.plotting import THEORY, power_of_ten, styled
-from granugas.plotting_papers import cooling_views
-from granugas.plotting_runs import grid_points
+from granugas.plotting.papers import cooling_views
+from granugas.plotting.runs import grid_points
+from granugas.plotting.style import THEORY, power_of_ten, styled
 
 STUDIES = ("cluster1999_contact_times",)
 

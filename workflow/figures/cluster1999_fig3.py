@@ -5,9 +5,9 @@ from matplotlib.figure import Figure
 
 from granugas.analysis.growth import local_exponent
 from granugas.analysis.theory import collisions_until, homogeneous_cooling
-from granugas.plotting import PAGE, THEORY, mark_panels, styled
-from granugas.plotting_papers import mark_growth
-from granugas.plotting_runs import band, grid_points, power_line, times
+from granugas.plotting.papers import mark_growth
+from granugas.plotting.runs import band, grid_points, power_line, times
+from granugas.plotting.style import PAGE, THEORY, mark_panels, styled
 
 STUDIES = ("cluster1999_large",)
 

@@ -3,8 +3,8 @@
 import xarray as xr
 from matplotlib.figure import Figure
 
-from granugas.plotting import styled
-from granugas.snapshots import by_energy, draw_snapshots, relative_energy
+from granugas.plotting.snapshots import by_energy, draw_snapshots, relative_energy
+from granugas.plotting.style import styled
 
 STUDIES = ("cluster1999_large",)
 TIMES = (0.64, 2.56, 40.96, 446.6)

@@ -4,9 +4,9 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from granugas.analysis.statistics import fit_power_law
-from granugas.plotting import PAGE, exponent, mark_panels, shades, styled
-from granugas.plotting_papers import mark_growth
-from granugas.plotting_runs import band, grid_points, times
+from granugas.plotting.papers import mark_growth
+from granugas.plotting.runs import band, grid_points, times
+from granugas.plotting.style import PAGE, exponent, mark_panels, shades, styled
 
 STUDIES = ("cluster1999_large",)
 WINDOW = (1.0, 40.0)

@@ -7,8 +7,8 @@ from matplotlib.figure import Figure
 
 from granugas.analysis.growth import local_exponent, regime_boundaries, window_exponents
 from granugas.analysis.statistics import fit_power_law
-from granugas.plotting import PAGE, mark_panels, shades, styled
-from granugas.plotting_runs import band, grid_points
+from granugas.plotting.runs import band, grid_points
+from granugas.plotting.style import PAGE, mark_panels, shades, styled
 
 STUDIES = ("cluster1999_large",)
 WINDOW = (1.0, 40.0)  # the growth regime of the paper, in s

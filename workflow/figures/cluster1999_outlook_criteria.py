@@ -7,8 +7,8 @@ from matplotlib.figure import Figure
 from granugas.analysis.criteria import compare
 from granugas.analysis.statistics import fit_power_law
 from granugas.analysis.structure import mean_wavelength, structure_factor
-from granugas.plotting import PAGE, exponent, mark_panels, shades, styled
-from granugas.plotting_runs import band, grid_points
+from granugas.plotting.runs import band, grid_points
+from granugas.plotting.style import PAGE, exponent, mark_panels, shades, styled
 
 STUDIES = ("cluster1999_large",)
 FACTOR, REACH, SHORTEST, WINDOW = 1.1, 1.5, 5, (1.0, 41.0)  # S_c; reach and shortest wavelength in d; of the exponents in s

@@ -6,8 +6,8 @@ from matplotlib.figure import Figure
 
 from granugas.analysis.sizes import mass_distribution, middle_sizes, octaves, scaling, size_distribution
 from granugas.analysis.statistics import mean_and_error
-from granugas.plotting import MARKERS, PAGE, mark_panels, shades, styled
-from granugas.plotting_runs import grid_points
+from granugas.plotting.runs import grid_points
+from granugas.plotting.style import MARKERS, PAGE, mark_panels, shades, styled
 
 STUDIES = ("cluster1999_large",)
 FACTORS = (1.05, 1.1, 1.2)

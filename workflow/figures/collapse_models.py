@@ -5,7 +5,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from granugas.plotting import MARKERS, PAGE, mark_panels, styled
+from granugas.plotting.style import MARKERS, PAGE, mark_panels, styled
 
 SECTION = "Hard cases"
 STUDIES = ()

@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 
 from granugas.analysis.theory import collapse_restitution
 from granugas.analysis.threshold import collapse_threshold, collapsed_within, rate_on_approach
-from granugas.plotting import MARKERS, PAGE, THEORY, mark_panels, power_of_ten, shades, styled
+from granugas.plotting.style import MARKERS, PAGE, THEORY, mark_panels, power_of_ten, shades, styled
 
 SECTION = "Hard cases"
 STUDIES = ("collapse_n42", "collapse_n378", "collapse_n1435", "collapse_n5740", "collapse_n22960")

@@ -5,7 +5,7 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from granugas.analysis.theory import column_restitution, cushion_restitution
-from granugas.plotting import MARKERS, PAGE, THEORY, mark_panels, power_of_ten, shades, styled
+from granugas.plotting.style import MARKERS, PAGE, THEORY, mark_panels, power_of_ten, shades, styled
 
 SECTION = "Hard cases"
 STUDIES = ()

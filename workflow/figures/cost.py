@@ -5,7 +5,7 @@ import pandas as pd
 import xarray as xr
 from matplotlib.figure import Figure
 
-from granugas.plotting import PAGE, styled
+from granugas.plotting.style import PAGE, styled
 
 SECTION = "Cost"
 STUDIES = ()

@@ -4,7 +4,7 @@ import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
-from granugas.plotting import PAGE, styled
+from granugas.plotting.style import PAGE, styled
 
 SECTION = "Effects"
 STUDIES = ()

@@ -9,8 +9,8 @@ from granugas.analysis.growth import growth_window
 from granugas.analysis.sizes import middle_sizes, octaves, size_distribution
 from granugas.analysis.statistics import fit_power_law
 from granugas.analysis.theory import homogeneous_cooling
-from granugas.plotting import MARKERS, PAGE, THEORY, exponent, mark_panels, shades, styled
-from granugas.plotting_runs import band, grid_points
+from granugas.plotting.runs import band, grid_points
+from granugas.plotting.style import MARKERS, PAGE, THEORY, exponent, mark_panels, shades, styled
 
 SECTION = "Effects"
 STUDIES = ("growth_3d",)

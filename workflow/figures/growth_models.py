@@ -7,8 +7,8 @@ from matplotlib.figure import Figure
 
 from granugas.analysis.growth import growth_window, local_exponent
 from granugas.analysis.statistics import fit_power_law
-from granugas.plotting import PAGE, mark_panels, styled
-from granugas.plotting_runs import band, grid_points
+from granugas.plotting.runs import band, grid_points
+from granugas.plotting.style import PAGE, mark_panels, styled
 
 SECTION = "Effects"
 STUDIES = ("growth_smooth", "growth_rough", "growth_viscoelastic")

@@ -5,8 +5,8 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from granugas.analysis.structure import pair_correlation
-from granugas.plotting import PAGE, mark_panels, styled
-from granugas.plotting_runs import band
+from granugas.plotting.runs import band
+from granugas.plotting.style import PAGE, mark_panels, styled
 
 SECTION = "Accuracy"
 STUDIES = ("methods_events", "methods_soft_spheres", "methods_dsmc")

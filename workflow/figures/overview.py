@@ -6,8 +6,8 @@ import xarray as xr
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from granugas.plotting import PAGE, mark_panels, shades, styled
-from granugas.plotting_runs import band, grid_points, point_names, times
+from granugas.plotting.runs import band, grid_points, point_names, times
+from granugas.plotting.style import PAGE, mark_panels, shades, styled
 
 SECTION = "Studies"
 STUDIES = ()

@@ -5,7 +5,7 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from granugas.analysis.divergence import collision_times, lyapunov_exponent, relative_spread
-from granugas.plotting import PAGE, mark_panels, styled
+from granugas.plotting.style import PAGE, mark_panels, styled
 
 SECTION = "Accuracy"
 STUDIES = ()

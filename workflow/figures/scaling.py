@@ -5,8 +5,8 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from granugas.plotting import PAGE, mark_panels, styled
-from granugas.plotting_runs import beside
+from granugas.plotting.runs import beside
+from granugas.plotting.style import PAGE, mark_panels, styled
 
 SECTION = "Cost"
 STUDIES = ()

@@ -5,9 +5,9 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from granugas.plotting import PAGE, styled
-from granugas.plotting_runs import grid_points
-from granugas.snapshots import by_energy, draw_disks, relative_energy
+from granugas.plotting.runs import grid_points
+from granugas.plotting.snapshots import by_energy, draw_disks, relative_energy
+from granugas.plotting.style import PAGE, styled
 
 SECTION = "Effects"
 STUDIES = (

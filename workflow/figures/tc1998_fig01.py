@@ -3,7 +3,7 @@
 import xarray as xr
 from matplotlib.figure import Figure
 
-from granugas.plotting import COLUMN, mark_panels, styled
+from granugas.plotting.style import COLUMN, mark_panels, styled
 
 STUDIES = ()
 EXPERIMENTS = ("contact",)

@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 
 from granugas.analysis import theory
 from granugas.analysis.at_rest import shown
-from granugas.plotting import PAGE, THEORY, mark_panels, shades, styled
+from granugas.plotting.style import PAGE, THEORY, mark_panels, shades, styled
 
 STUDIES = ()
 EXPERIMENTS = ("bouncing",)

@@ -7,8 +7,8 @@ from matplotlib.figure import Figure
 from granugas.analysis import theory
 from granugas.analysis.elastic import whole_runs
 from granugas.analysis.literature import COEXISTENCE, PRESSURES
-from granugas.plotting import COLUMN, THEORY, mark_panels, styled
-from granugas.plotting_runs import each_run
+from granugas.plotting.runs import each_run
+from granugas.plotting.style import COLUMN, THEORY, mark_panels, styled
 
 STUDIES = ("tc1998_elastic_n1435", "tc1998_elastic_n42", "tc1998_elastic_n16680")
 MARKERS = ("o", "s", "^")

@@ -6,8 +6,8 @@ from matplotlib.figure import Figure
 
 from granugas.analysis.elastic import whole_runs
 from granugas.analysis.theory import enskog_rate
-from granugas.plotting import THEORY, styled
-from granugas.plotting_runs import by_contact_time, error_points
+from granugas.plotting.runs import by_contact_time, error_points
+from granugas.plotting.style import THEORY, styled
 
 STUDIES = ("tc1998_elastic_n1435",)
 

@@ -4,8 +4,8 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from granugas.analysis.elastic import quality_factors, whole_runs
-from granugas.plotting import PAGE, THEORY, mark_panels, styled
-from granugas.plotting_runs import by_contact_time
+from granugas.plotting.runs import by_contact_time
+from granugas.plotting.style import PAGE, THEORY, mark_panels, styled
 
 STUDIES = ("tc1998_elastic_n1435",)
 

@@ -5,8 +5,8 @@ from matplotlib.figure import Figure
 
 from granugas.analysis.elastic import quality_factors, whole_runs
 from granugas.analysis.theory import ENERGY_OF_ELASTIC_PARTICLES
-from granugas.plotting import THEORY, styled
-from granugas.plotting_runs import by_contact_time
+from granugas.plotting.runs import by_contact_time
+from granugas.plotting.style import THEORY, styled
 
 STUDIES = ("tc1998_elastic_n1435",)
 

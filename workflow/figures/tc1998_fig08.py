@@ -5,8 +5,8 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from granugas.analysis.theory import homogeneous_cooling
-from granugas.plotting import COLUMN, THEORY, shades, styled
-from granugas.plotting_runs import band, grid_points
+from granugas.plotting.runs import band, grid_points
+from granugas.plotting.style import COLUMN, THEORY, shades, styled
 
 STUDIES = ("tc1998_n42", "tc1998_n378", "tc1998_n1435", "tc1998_n5740", "tc1998_n22960", "tc1998_n97776")
 

@@ -6,8 +6,8 @@ from matplotlib.figure import Figure
 
 from granugas.analysis.theory import homogeneous_cooling
 from granugas.analysis.windows import growing_windows, middles, ratio_of_changes
-from granugas.plotting import COLUMN, THEORY, shades, styled
-from granugas.plotting_runs import grid_points, mean_and_range, times
+from granugas.plotting.runs import grid_points, mean_and_range, times
+from granugas.plotting.style import COLUMN, THEORY, shades, styled
 
 STUDIES = ("tc1998_n42", "tc1998_n378", "tc1998_n1435", "tc1998_n5740", "tc1998_n22960", "tc1998_n97776")
 

@@ -4,10 +4,10 @@ import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
-from granugas.plotting import PAGE, shades, styled
-from granugas.plotting_papers import blue_green_red
-from granugas.plotting_runs import grid_points
-from granugas.snapshots import draw_disks
+from granugas.plotting.papers import blue_green_red
+from granugas.plotting.runs import grid_points
+from granugas.plotting.snapshots import draw_disks
+from granugas.plotting.style import PAGE, shades, styled
 
 STUDIES = ("tc1998_n22960",)
 

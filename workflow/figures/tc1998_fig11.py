@@ -5,10 +5,10 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from granugas.analysis.theory import rms_speed
-from granugas.plotting import PAGE, power_of_ten, styled
-from granugas.plotting_papers import blue_green_red
-from granugas.plotting_runs import grid_points
-from granugas.snapshots import draw_disks
+from granugas.plotting.papers import blue_green_red
+from granugas.plotting.runs import grid_points
+from granugas.plotting.snapshots import draw_disks
+from granugas.plotting.style import PAGE, power_of_ten, styled
 
 STUDIES = ("tc1998_contact_times",)
 

@@ -5,8 +5,8 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from granugas.analysis.theory import homogeneous_cooling
-from granugas.plotting import THEORY, number_1_2_5, power_of_ten, shades, styled
-from granugas.plotting_runs import band, grid_points, thinned
+from granugas.plotting.runs import band, grid_points, thinned
+from granugas.plotting.style import THEORY, number_1_2_5, power_of_ten, shades, styled
 
 STUDIES = ("tc1998_contact_times",)
 

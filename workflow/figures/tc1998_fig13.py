@@ -5,8 +5,8 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from granugas.analysis.theory import energy_after_collisions
-from granugas.plotting import THEORY, power_of_ten, shades, styled
-from granugas.plotting_runs import grid_points, thinned
+from granugas.plotting.runs import grid_points, thinned
+from granugas.plotting.style import THEORY, power_of_ten, shades, styled
 
 STUDIES = ("tc1998_contact_times",)
 

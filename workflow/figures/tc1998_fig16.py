@@ -3,9 +3,9 @@
 import xarray as xr
 from matplotlib.figure import Figure
 
-from granugas.plotting import shades, styled
-from granugas.plotting_papers import elastic_fractions
-from granugas.plotting_runs import grid_points
+from granugas.plotting.papers import elastic_fractions
+from granugas.plotting.runs import grid_points
+from granugas.plotting.style import shades, styled
 
 STUDIES = ("tc1998_restitutions",)
 

@@ -7,8 +7,8 @@ from matplotlib.figure import Figure
 from granugas.analysis.cooling import cooling_with_contact_time, initial_cooling
 from granugas.analysis.statistics import mean_and_error
 from granugas.analysis.theory import dissipation_factor, elastic_collision_fraction_shielded, loss_shielding
-from granugas.plotting import PAGE, THEORY, mark_panels, power_of_ten, shades, styled
-from granugas.plotting_runs import band, grid_points
+from granugas.plotting.runs import band, grid_points
+from granugas.plotting.style import PAGE, THEORY, mark_panels, power_of_ten, shades, styled
 
 STUDIES = ("tc1998_outlook_cooling", "tc1998_outlook_transition")
 

@@ -6,8 +6,8 @@ from matplotlib.figure import Figure
 
 from granugas.analysis.elastic import quality_factors, whole_runs
 from granugas.analysis.theory import elastic_collision_fraction, elastic_collision_fraction_shielded, shielding
-from granugas.plotting import PAGE, THEORY, mark_panels, shades, styled
-from granugas.plotting_runs import by_contact_time, error_points
+from granugas.plotting.runs import by_contact_time, error_points
+from granugas.plotting.style import PAGE, THEORY, mark_panels, shades, styled
 
 STUDIES = ("tc1998_elastic_n1435",)
 DENSITIES = (0.02, 0.1, 0.226725, 0.4, 0.6)

@@ -5,9 +5,9 @@ import xarray as xr
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
-from granugas.plotting import PAGE, mark_panels, shades, styled
-from granugas.plotting_runs import error_points
-from granugas.snapshots import draw_disks
+from granugas.plotting.runs import error_points
+from granugas.plotting.snapshots import draw_disks
+from granugas.plotting.style import PAGE, mark_panels, shades, styled
 
 STUDIES = ()
 EXPERIMENTS = ("volumes",)

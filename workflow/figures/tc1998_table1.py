@@ -6,7 +6,7 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from granugas.analysis.at_rest import energies_at_rest, shown
-from granugas.plotting import power_of_ten, styled, text_table
+from granugas.plotting.style import power_of_ten, styled, text_table
 
 STUDIES = ()
 EXPERIMENTS = ("bouncing",)

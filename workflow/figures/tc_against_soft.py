@@ -6,7 +6,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from granugas.plotting import MARKERS, PAGE, mark_panels, shades, styled
+from granugas.plotting.style import MARKERS, PAGE, mark_panels, shades, styled
 
 SECTION = "Accuracy"
 STUDIES = ()

@@ -7,7 +7,8 @@ from pathlib import Path
 
 import yaml
 
-from granugas import batch, declared, digest, studies
+from granugas import declared, digest, studies
+from granugas.planning import batch
 from granugas.build import Job, claim, damaged, date_now, failures, pass_on_termination, tell_progress, wake, warm_up
 from granugas.configuration import ConfigError, refuse_duplicate_keys
 from granugas.cost import entries, renew_table, summary
@@ -37,7 +38,7 @@ STATES, RUNS, CLUSTERS, KEEPING = STUDIES.states(), STUDIES.runs(), STUDIES.clus
 DRAWINGS, DRAWN_TABLES = MEASURED["figures"], declared.tables_in(HERE / "workflow/figures")
 FIRST_TO_ASK = STUDIES.first_to_ask()
 TABLES, CLAIMS = (STUDIES.possible(declared.studies_in(HERE / f"workflow/{kind}")) for kind in ("tables", "claims"))
-STYLE = [*sorted(digest.SOURCES.glob("plotting*.py")), digest.SOURCES / "snapshots.py", digest.SOURCES / "granugas.mplstyle"]
+STYLE = sorted({*(digest.SOURCES / "plotting").glob("*.*")} - {digest.SOURCES / "plotting/animation.py"})
 ANALYSIS = digest.digest(digest.ANALYSIS)
 FORMULAS = digest.digest(["granugas.analysis.*"])
 STORAGE = digest.digest(["granugas.storage.*"])

@@ -41,7 +41,7 @@ rule animate:
         f"{OUTPUT}/logs/animations/{{animation}}.log",
     params:
         colour=lambda wildcards: STUDIES.animations[wildcards.animation].colour,
-        drawing=digest.digest(["granugas.animation", "granugas.snapshots"]),
+        drawing=digest.digest(["granugas.plotting.animation", "granugas.plotting.snapshots"]),
     wildcard_constraints:
         animation="|".join(STUDIES.animations),
     script:
@@ -62,7 +62,7 @@ rule explorer:
     params:
         labels=[shown.label for shown in EXPLORED],
         clusters=[shown.clusters and f"{OUTPUT}/clusters/{shown.clusters}.nc" for shown in EXPLORED],
-        drawing=digest.digest(["granugas.explorer.*", "granugas.snapshots", *digest.ANALYSIS]),
+        drawing=digest.digest(["granugas.explorer.*", "granugas.plotting.snapshots", *digest.ANALYSIS]),
     script:
         "../scripts/explorer.py"
 

@@ -3,7 +3,7 @@
 from granugas.jobs import logged
 
 with logged(snakemake.log[0]):
-    from granugas.animation import render
+    from granugas.plotting.animation import render
     from granugas.storage.positions import read_positions
 
     with read_positions(snakemake.input.positions) as run:

@@ -5,7 +5,7 @@ from granugas.jobs import logged
 with logged(snakemake.log[0]):
     import runpy
 
-    from granugas.plotting import save
+    from granugas.plotting.style import save
     from granugas.storage.dataset import read_by_name
 
     figure = runpy.run_path(snakemake.input.drawing)["draw"](read_by_name(snakemake.input.data))

@@ -6,7 +6,7 @@ import xarray as xr
 from granugas.analysis.growth import regime_boundaries
 from granugas.analysis.statistics import fit_power_law
 from granugas.analysis.theory import homogeneous_cooling
-from granugas.plotting_runs import grid_points
+from granugas.plotting.runs import grid_points
 
 STUDIES = ("cluster1999_large",)
 

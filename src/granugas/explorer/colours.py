@@ -10,7 +10,7 @@ import xarray as xr
 from matplotlib.colors import to_hex
 from numpy.typing import NDArray
 
-from granugas.snapshots import ENERGIES, FREQUENCIES, frequency_or_contact, relative_energy
+from granugas.plotting.snapshots import ENERGIES, FREQUENCIES, frequency_or_contact, relative_energy
 
 LEVELS = 16
 """Of a scale: more are not seen in a picture of 80 000 disks, and fewer bits make the page small."""

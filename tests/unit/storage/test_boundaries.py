@@ -12,9 +12,9 @@ import pytest
 import xarray as xr
 from matplotlib.figure import Figure
 
-from granugas.animation import render
 from granugas.build import claim
-from granugas.plotting import save
+from granugas.plotting.animation import render
+from granugas.plotting.style import save
 from granugas.storage.checkpoint import Checkpoint
 from granugas.storage.dataset import write, write_positions
 from granugas.storage.files import replacing

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator
 
 from granugas.analysis.accuracy import bias
-from granugas.plotting import MARKERS, PAGE, mark_panels, power_of_ten
+from granugas.plotting.style import MARKERS, PAGE, mark_panels, power_of_ten
 
 Data = TypeVar("Data", xr.Dataset, xr.DataArray)
 

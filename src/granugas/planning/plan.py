@@ -12,9 +12,9 @@ from pathlib import Path
 
 import netCDF4
 
-from granugas.calibration import Calibration
 from granugas.dynamics.soft_contact import step_of
-from granugas.expected import End, bias, end_of, rate_of, scatter
+from granugas.planning.calibration import Calibration
+from granugas.planning.expected import End, bias, end_of, rate_of, scatter
 from granugas.resources import memory_of
 from granugas.runs import Run
 from granugas.scene import Scene

@@ -15,8 +15,8 @@ from matplotlib.colors import LinearSegmentedColormap, LogNorm, Normalize
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from granugas.plotting import PAGE
-from granugas.plotting_runs import grid_points, times
+from granugas.plotting.runs import grid_points, times
+from granugas.plotting.style import PAGE
 
 Numbers = NDArray[np.float64]
 

@@ -8,9 +8,9 @@ import pytest
 import xarray as xr
 from matplotlib.colors import to_rgb
 
-from granugas.plotting_accuracy import Curve, accuracy_figure, arithmetic, contact_time, curve_of, equilibration, sampling
+from granugas.plotting.accuracy import Curve, accuracy_figure, arithmetic, contact_time, curve_of, equilibration, sampling
 
-FIGURE = Path(__file__).parents[2] / "workflow/figures/accuracy_cost.py"
+FIGURE = Path(__file__).parents[3] / "workflow/figures/accuracy_cost.py"
 AXES = (1e-3, 1e2), (1e-4, 10.0)
 
 

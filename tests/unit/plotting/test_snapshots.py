@@ -7,7 +7,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 
-from granugas.snapshots import (
+from granugas.plotting.snapshots import (
     COLOURS,
     FREQUENCIES,
     by_energy,

@@ -12,7 +12,7 @@ from matplotlib.ticker import LogLocator, NullFormatter
 
 from granugas.analysis.comparison import interpolated
 from granugas.analysis.statistics import mean_and_error
-from granugas.plotting import MARKERS, SYMBOLS, number, power_of_ten, shades
+from granugas.plotting.style import MARKERS, SYMBOLS, number, power_of_ten, shades
 
 
 def grid_points(data: xr.Dataset) -> Iterator[tuple[dict[str, Any], xr.Dataset]]:

@@ -2,8 +2,8 @@
 
 import pytest
 
-from granugas import calibration
-from granugas.calibration import Calibration, measure
+from granugas.planning import calibration
+from granugas.planning.calibration import Calibration, measure
 
 MADE_UP = Calibration((100, 10_000), (300.0, 500.0), 1.5, 1e-5, 2e-8)
 

@@ -6,12 +6,12 @@ import sys
 import matplotlib as mpl
 import numpy as np
 import pytest
-from matplotlib import style
+from matplotlib import style as matplotlib_style
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 
-from granugas import plotting
+from granugas.plotting import style
 
 
 @pytest.mark.parametrize("ending", ["png", "pdf", "svg"])
@@ -19,7 +19,7 @@ def test_equal_figures_give_equal_files(ending, tmp_path):
     for name in ("one", "two"):
         figure = Figure()
         figure.add_subplot(xscale="log", yscale="log").plot([1, 2, 4], [1, 8, 16])
-        plotting.save(figure, tmp_path / "new" / f"{name}.{ending}")
+        style.save(figure, tmp_path / "new" / f"{name}.{ending}")
     one, two = ((tmp_path / "new" / f"{name}.{ending}").read_bytes() for name in ("one", "two"))
     assert one == two
     assert b"Date" not in one and b"matplotlib.org" not in one[-500:]
@@ -27,26 +27,26 @@ def test_equal_figures_give_equal_files(ending, tmp_path):
 
 def test_style_is_in_force_while_drawing_only():
     before = mpl.rcParams["xtick.direction"]
-    drawn = plotting.styled(lambda data: mpl.rcParams["xtick.direction"])({})
+    drawn = style.styled(lambda data: mpl.rcParams["xtick.direction"])({})
     assert (before, drawn, mpl.rcParams["xtick.direction"]) == ("out", "in", "out")
 
 
 def test_style_is_for_everybody():
     """No two colours of the cycle are as close in brightness and hue as grey prints or colour blindness confuse."""
-    with style.context(plotting.STYLE):
+    with matplotlib_style.context(style.STYLE):
         cycle = mpl.rcParams["axes.prop_cycle"].by_key()["color"]
     assert len(set(cycle)) == 7
-    brightness = [np.dot([0.2126, 0.7152, 0.0722], to_rgb(colour)) for colour in plotting.shades(9)]
+    brightness = [np.dot([0.2126, 0.7152, 0.0722], to_rgb(colour)) for colour in style.shades(9)]
     assert (np.diff(brightness) > 0.03).all()
 
 
 def test_pyplot_is_not_needed():
-    code = "import sys, granugas.plotting; sys.exit('matplotlib.pyplot' in sys.modules)"
+    code = "import sys, granugas.plotting.style; sys.exit('matplotlib.pyplot' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code]).returncode == 0
 
 
 def test_numbers():
-    assert [plotting.power_of_ten(t) for t in (0, 1e-12, 5e-4, 1.5e-3)] == [
+    assert [style.power_of_ten(t) for t in (0, 1e-12, 5e-4, 1.5e-3)] == [
         "$0$",
         "$10^{-12}$",
         r"$5\times10^{-4}$",
@@ -56,7 +56,7 @@ def test_numbers():
 
 def test_text_tables_keep_inside_their_columns():
     cells = [["", "one", "two"], ["energy", "$E = 0.1250$", "$-$"], ["force", "$f = 1$", ""]]
-    figure = plotting.styled(lambda _: plotting.text_table(cells, [1.2, 1.0, 0.8], ["a note"]))({})
+    figure = style.styled(lambda _: style.text_table(cells, [1.2, 1.0, 0.8], ["a note"]))({})
     (axes,) = figure.axes
     FigureCanvasAgg(figure).draw()
     boxes = [text.get_window_extent().transformed(axes.transData.inverted()) for text in axes.texts]

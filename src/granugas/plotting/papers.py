@@ -13,8 +13,8 @@ from matplotlib.figure import Figure
 
 from granugas.analysis.growth import growth_regime, local_exponent
 from granugas.analysis.windows import equal_windows, middles, ratio_of_changes, snapshot_means
-from granugas.plotting import MARKERS, PAGE, mark_panels, shades
-from granugas.plotting_runs import mean_and_range, run_and_others, times
+from granugas.plotting.runs import mean_and_range, run_and_others, times
+from granugas.plotting.style import MARKERS, PAGE, mark_panels, shades
 
 
 def blue_green_red(low: float, middle: float, high: float) -> ScalarMappable:

@@ -13,8 +13,8 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from granugas.plotting import STYLE, power_of_ten
-from granugas.snapshots import Colouring, by_energy, by_frequency, by_height, frequency_or_contact, relative_energy
+from granugas.plotting.snapshots import Colouring, by_energy, by_frequency, by_height, frequency_or_contact, relative_energy
+from granugas.plotting.style import STYLE, power_of_ten
 from granugas.storage.files import replacing
 
 Numbers = NDArray[np.float64]

@@ -9,14 +9,15 @@ import pytest
 import yaml
 from workflow.project import ROOT
 
-from granugas import plan, studies
+from granugas import studies
 from granugas.__main__ import main
-from granugas.calibration import Calibration
-from granugas.choice import cheapest, overlay
 from granugas.configuration import merged
 from granugas.execute import perform, start_states
-from granugas.expected import bias, end_of, rate_of, scatter
-from granugas.plan import as_numbers, forecast, motion_seconds, table
+from granugas.planning import plan
+from granugas.planning.calibration import Calibration
+from granugas.planning.choice import cheapest, overlay
+from granugas.planning.expected import bias, end_of, rate_of, scatter
+from granugas.planning.plan import as_numbers, forecast, motion_seconds, table
 from granugas.scene import Scene
 from granugas.storage.dataset import read, write
 
@@ -34,7 +35,7 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     (tmp_path / "config").mkdir()
     (tmp_path / "config/config.yaml").write_text(yaml.safe_dump(BOTH, sort_keys=False))
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("granugas.calibration.calibration", lambda: MACHINE)
+    monkeypatch.setattr("granugas.planning.calibration.calibration", lambda: MACHINE)
     return tmp_path
 
 

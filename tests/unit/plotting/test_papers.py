@@ -6,11 +6,11 @@ import xarray as xr
 from made_up import cooling_study
 from matplotlib.figure import Figure
 
-from granugas import plotting_papers
+from granugas.plotting import papers
 
 
 def test_blue_green_red():
-    colour = plotting_papers.blue_green_red(300, 700, 1100).to_rgba
+    colour = papers.blue_green_red(300, 700, 1100).to_rgba
     for rate, strongest in ((0, 2), (300, 2), (700, 1), (1100, 0), (5000, 0)):
         assert np.argmax(colour(rate)[:3]) == strongest
     assert colour(100) == colour(300) != colour(400)
@@ -19,7 +19,7 @@ def test_blue_green_red():
 
 def test_elastic_fractions_in_windows():
     runs = cooling_study(2).squeeze(drop=True)
-    figure = plotting_papers.elastic_fractions([runs], [{"label": "one"}], 10.0, ((1e-3, 1), (1e-4, 1)))
+    figure = papers.elastic_fractions([runs], [{"label": "one"}], 10.0, ((1e-3, 1), (1e-4, 1)))
     assert [axes.get_ylim()[0] for axes in figure.axes] == [1e-3, 1e-4, 1e-4]
     for axes, expected in zip(figure.axes, (0.01, 0.004, 0.005), strict=True):
         np.testing.assert_allclose(axes.lines[0].get_ydata(), expected, rtol=1e-9)
@@ -35,9 +35,9 @@ def test_the_growth_regime_is_shaded_where_the_mean_size_grows():
     axes = Figure().add_subplot(xscale="log")
     axes.plot([2, 5], [1, 2])
     limits = axes.get_xlim()
-    plotting_papers.mark_growth(runs, axes)
+    papers.mark_growth(runs, axes)
     (area,) = axes.patches
     assert (area.get_x(), area.get_x() + area.get_width()) == pytest.approx((1, 40), rel=0.05)
     assert axes.get_xlim() == limits
-    plotting_papers.mark_growth(runs.isel(time=slice(0, 80)), axes)  # does not end
+    papers.mark_growth(runs.isel(time=slice(0, 80)), axes)  # does not end
     assert axes.patches[-1].get_x() + axes.patches[-1].get_width() == pytest.approx(limits[1])

@@ -12,8 +12,8 @@ from granugas.runs import Run
 from granugas.scene import Scene
 
 if TYPE_CHECKING:
-    from granugas.calibration import Calibration
-    from granugas.expected import End
+    from granugas.planning.calibration import Calibration
+    from granugas.planning.expected import End
 
 SAFETY = 3.0
 """Time asked for by time expected: nodes are slower and full, and runs collide up to 1.5 times as often as expected."""
@@ -54,41 +54,41 @@ def kind(seconds: float) -> str | None:
 
 def of_states(run: Run) -> float:
     """Of the start states of a run."""
-    from granugas.plan import equilibration_seconds
+    from granugas.planning.plan import equilibration_seconds
 
     return equilibration_seconds(run, _machine())
 
 
 def of_run(run: Run) -> float:
     """Of a run."""
-    from granugas.plan import run_seconds
+    from granugas.planning.plan import run_seconds
 
     return run_seconds(run, _end(run.scene, tuple(run.until.items())), _machine())
 
 
 def of_clusters(run: Run, distance_factors: Sequence[float]) -> float:
     """Of the cluster analysis of a run."""
-    from granugas.plan import analysis_seconds
+    from granugas.planning.plan import analysis_seconds
 
     return analysis_seconds(run, len(distance_factors), _machine())
 
 
 def of_pool(runs: Sequence[Run]) -> float:
     """Of pooling a study."""
-    from granugas.plan import pooling_seconds
+    from granugas.planning.plan import pooling_seconds
 
     return pooling_seconds(len(runs), _machine())
 
 
 def pooled_size(runs: Sequence[Run]) -> float:
     """Bytes in memory while a study is pooled."""
-    from granugas.plan import dataset_bytes
+    from granugas.planning.plan import dataset_bytes
 
     return POOLED * sum(map(dataset_bytes, runs))
 
 
 def _machine() -> "Calibration":
-    from granugas.calibration import REFERENCE_MACHINE
+    from granugas.planning.calibration import REFERENCE_MACHINE
 
     return REFERENCE_MACHINE
 
@@ -96,6 +96,6 @@ def _machine() -> "Calibration":
 @cache
 def _end(scene: Scene, until: tuple[tuple[str, float], ...]) -> "End":
     """The end of runs of a scene: their realizations share it."""
-    from granugas.expected import end_of
+    from granugas.planning.expected import end_of
 
     return end_of(scene, dict(until))

@@ -16,7 +16,7 @@ from granugas.analysis.cooling import cooling_with_contact_time
 from granugas.configuration import merged
 from granugas.equilibrate import equilibrate
 from granugas.execute import perform, start_states
-from granugas.expected import bias, collapse, cooling, end_of, rate_of, room_for_clusters, scatter
+from granugas.planning.expected import bias, collapse, cooling, end_of, rate_of, room_for_clusters, scatter
 from granugas.runs import GRID_KEYS, Run
 from granugas.scene import DEFAULTS, SCENE_KEYS, Scene
 from granugas.simulate import simulate
@@ -162,10 +162,11 @@ def test_every_key_of_a_scene_is_looked_at_or_left_out_for_a_reason():
     """Whoever adds a key decides what the plan makes of it."""
 
     def read_in(tree: ast.AST) -> set[str]:
-        names = (node for node in ast.walk(tree) if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name))
-        return {node.attr for node in names if node.value.id in ("scene", "self")}
+        read = (node for node in ast.walk(tree) if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name))
+        return {node.attr for node in read if node.value.id in ("scene", "self")}
 
-    files = {name: ast.parse((ROOT / f"src/granugas/{name}.py").read_text()) for name in ("scene", "expected", "plan", "runs")}
+    names = ("scene", "runs", "planning/expected", "planning/plan")
+    files = {name: ast.parse((ROOT / f"src/granugas/{name}.py").read_text()) for name in names}
     properties = {node.name: read_in(node) for node in ast.walk(files.pop("scene")) if isinstance(node, ast.FunctionDef)}
     seen: set[str] = set()
     waiting = set().union(*map(read_in, files.values()))

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from granugas.animation import COLOURINGS, STRIP, render, splat
+from granugas.plotting.animation import COLOURINGS, STRIP, render, splat
 
 N, FRAMES, BOX = 300, 8, np.array([1.0, 0.6])
 

@@ -5,9 +5,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from granugas.calibration import Calibration
-from granugas.expected import bias, end_of, scatter
-from granugas.plan import QUANTITIES, collision_seconds, duration, run_seconds
+from granugas.planning.calibration import Calibration
+from granugas.planning.expected import bias, end_of, scatter
+from granugas.planning.plan import QUANTITIES, collision_seconds, duration, run_seconds
 from granugas.runs import Run
 from granugas.studies import Study
 

@@ -7,13 +7,13 @@ import pytest
 import yaml
 
 import granugas as gg
-from granugas import batch, plan
-from granugas.calibration import REFERENCE_MACHINE
-from granugas.expected import end_of
+from granugas.planning import batch, plan
+from granugas.planning.calibration import REFERENCE_MACHINE
+from granugas.planning.expected import end_of
 from granugas.resources import memory_of
 from granugas.runs import Run
 
-PROFILES = Path(__file__).resolve().parents[2] / "profiles"
+PROFILES = Path(__file__).resolve().parents[3] / "profiles"
 OF_SNAKEMAKE = 2.0
 """s that Snakemake takes for each job that goes with others, at least (measured: 2.4 with 10^4 runs)."""
 

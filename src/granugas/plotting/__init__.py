@@ -1,0 +1,1 @@
+"""Figures and films: the style, and what drawings of several figures have in common."""
