@@ -138,6 +138,24 @@ def test_spheres_that_do_not_fit_are_refused():
         check_lattice(Scene(1000, 0.53, dimensions=3, lattice="cubic"))
 
 
+def test_a_box_has_room_for_two_of_the_largest():
+    few = {"sizes": "bidisperse", "size_ratio": 5.0, "size_share": 0.5, "area_fraction": 0.6}
+    with pytest.raises(
+        SceneError, match=r"n_particles = 2: allowed are so many that the box is 2 of the largest diameters wide"
+    ):
+        start_lattice(Scene(n_particles=2, **few))
+    start_lattice(Scene(n_particles=20, **few))
+
+
+def test_walls_do_not_squeeze_rows_into_each_other():
+    dense = {"n_particles": 100, "area_fraction": 0.85}
+    with pytest.raises(
+        SceneError, match=r"area_fraction = 0\.85: 100 particles do not fit between walls on a triangular lattice"
+    ):
+        start_lattice(Scene(boundary="wall", **dense))
+    start_lattice(Scene(**dense))
+
+
 @pytest.mark.parametrize("n_particles", [5, 7, 42, 1435])
 @pytest.mark.parametrize("area_fraction", [0.88, 0.9])
 def test_a_refusal_names_the_largest_area_fraction(n_particles, area_fraction):

@@ -282,6 +282,12 @@ def test_an_animation_films_the_first_realization_and_costs_the_others_nothing()
     assert other.runs().keys() == filmed.runs().keys()
 
 
+def test_a_film_shows_disks() -> None:
+    block = {"until": {"time": 1.0}, "scene": {"dimensions": 3}}
+    with pytest.raises(ConfigError, match=r"animations\.film\.study = 'balls': allowed is a study in two dimensions"):
+        load({"studies": {"balls": block}, "animations": {"film": {"study": "balls"}}}, SCHEMA)
+
+
 def test_importing_is_light() -> None:
     code = "import sys, granugas.studies; print(*{'numpy', 'numba', 'xarray', 'matplotlib'} & set(sys.modules))"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=os.environ, check=True)
