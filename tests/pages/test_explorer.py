@@ -120,7 +120,7 @@ def test_curves_follow_the_distance_factor(opened, explorer, sources):
     ends = []
     for factor in (1.1, 1.3, 1.35):
         slide(page, "factor", factor)
-        until(page, f"document.querySelectorAll('#curve-count .dots circle').length === {len(SMALL) - 1}")
+        until(page, "document.getElementById('curves').getAttribute('aria-busy') === 'false'")
         settle(page)
         dots = page.locator("#curve-count .dots circle").evaluate_all(
             "(all) => all.map((dot) => Number(dot.getAttribute('cy')))"

@@ -94,6 +94,7 @@ function drawAxes() {
 /** Let the worker find the curve of S_c. */
 function ask(what) {
   curve = { S_c: chosen.S_c, found: [] };
+  element("curves").setAttribute("aria-busy", "true");
   worker.postMessage({ number: chosen.number, S_c: chosen.S_c, ...what });
 }
 
@@ -109,6 +110,7 @@ worker.onmessage = ({ data }) => {
 function showCurve() {
   curve.late = false;
   const times = run.frames.map(({ time }) => time);
+  element("curves").setAttribute("aria-busy", String(times.some((_, k) => !curve.found[k])));
   for (const name in plots) plots[name].live(times, times.map((_, k) => curve.found[k]?.[name]));
 }
 
