@@ -22,7 +22,7 @@ HOLDS, FAILS, SLIP, NOT_MEASURED = "holds", "does not hold", "slip of the print"
 PAPERS = {"A": "Luding & McNamara 1998", "B": "Luding & Herrmann 1999", "C": "of one's own"}
 """By the letter with which the ids of their claims begin."""
 
-COLUMNS = ("id", "section", "figure", "claim", "quantity", "expected", "measured", "error", "tolerance", "verdict", "remark")
+COLUMNS = ("id", "claim", "verdict", "quantity", "expected", "measured", "error", "tolerance", "remark", "figure", "section")
 
 
 @dataclass(frozen=True)

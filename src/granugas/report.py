@@ -27,6 +27,7 @@ PAGE = """<!DOCTYPE html>
 body {{ font: 14px/1.35 sans-serif; margin: 1.5em; }}
 table {{ border-collapse: collapse; }}
 th, td {{ border-bottom: 1px solid #ccc; padding: .3em .6em; text-align: left; vertical-align: top; }}
+tbody td:first-child {{ white-space: nowrap; }}
 thead th {{ position: sticky; top: 0; background: #eee; cursor: pointer; }}
 th[aria-sort=ascending]::after {{ content: " \\25B2"; }}
 th[aria-sort=descending]::after {{ content: " \\25BC"; }}
