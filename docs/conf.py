@@ -40,6 +40,7 @@ autodoc_member_order = "bysource"
 autodoc_typehints = "signature"
 autodoc_preserve_defaults = True
 napoleon_use_ivar = True
+napoleon_attr_annotations = False  # types stand in the signature
 python_maximum_signature_line_length = 90
 
 logging.getLogger("traitlets").setLevel(logging.WARNING)  # not a word of the notebook's start

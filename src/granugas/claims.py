@@ -30,9 +30,11 @@ class Expected:
     """An interval, and how far outside of it is still right.
 
     Attributes:
-        low, high: ends of the interval, equal for a value; numbers, or arrays for several at once.
+        low: end of the interval, a number, or an array for several values at once.
+        high: its other end, equal to the first for a value.
         rounding: half a unit of the last figure in print.
-        absolute, relative: tolerance, in the unit of the ends and as a part of them.
+        absolute: tolerance in the unit of the ends.
+        relative: tolerance as a part of them.
         corrected: what should have been printed, where we think that the print has a slip.
     """
 
