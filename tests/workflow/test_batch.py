@@ -21,7 +21,7 @@ def span(record: Path) -> tuple[float, float]:
 def test_runs_go_side_by_side_whatever_memory_they_ask_for(editable_copy: Project):
     """More than any machine has."""
     editable_copy.configure(studies={"small": STUDY}, figures=["study_small"])
-    with editable_copy.edited("src/granugas/batch.py", "PROGRAMS = 1.5e9", "PROGRAMS = 1.5e18"):
+    with editable_copy.edited("src/granugas/planning/batch.py", "PROGRAMS = 1.5e9", "PROGRAMS = 1.5e18"):
         said = editable_copy.build("--", "results/studies/small.nc")
     assert "Group job" not in said
     spans = [span(path) for path in editable_copy.folder.glob("results/logs/simulate/*.json")]
