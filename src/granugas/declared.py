@@ -44,7 +44,8 @@ def check_captions(figures: Path, captions: Path) -> None:
     """
     for path in _files_in(figures):
         if not (captions / f"{path.stem}.rst").is_file():
-            raise ConfigError(f"{path.stem}.rst", MISSING, f"allowed is a file in {captions.name}/, the caption of the figure")
+            where = f"{captions.parent.name}/{captions.name}/{path.stem}.rst"
+            raise ConfigError(where, MISSING, f"allowed is a file with the caption of the figure {path.stem}.py")
 
 
 def tables_in(folder: Path) -> dict[str, tuple[str, ...]]:

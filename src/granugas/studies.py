@@ -97,7 +97,11 @@ class Studies:
 
     def possible(self, products: Mapping[str, tuple[str, ...]]) -> dict[str, tuple[str, ...]]:
         """Those products (tables, claims) whose studies are all configured."""
-        return {name: needs for name, needs in products.items() if self.studies.keys() >= set(needs)}
+        return {name: needs for name, needs in products.items() if not self.missing(needs)}
+
+    def missing(self, needs: tuple[str, ...]) -> tuple[str, ...]:
+        """Those of the named studies that are not configured."""
+        return tuple(name for name in needs if name not in self.studies)
 
     def runs(self) -> dict[str, Run]:
         """Every run by its address; runs that studies share stand here once."""

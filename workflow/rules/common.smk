@@ -27,6 +27,9 @@ try:
         schema=yaml.safe_load((HERE / "workflow/schemas/config.schema.yaml").read_text()),
         figures=declared.studies_in(HERE / "workflow/figures"),
     )
+    DECLARED = {kind: declared.studies_in(HERE / f"workflow/{kind}") for kind in ("tables", "claims")}
+    DRAWN = [path for kind in ("figures", "tables") for path in sorted((HERE / f"workflow/{kind}").glob("[!_]*.py"))]
+    PLACES = {path.relative_to(HERE).as_posix(): entry_of(path) for path in DRAWN}
     declared.check_captions(HERE / "workflow/figures", HERE / "workflow/report")
     EXPERIMENTS = digest.SOURCES / "experiments"
     MEASURED = {kind: declared.experiments_in(HERE / f"workflow/{kind}", EXPERIMENTS) for kind in ("figures", "tables", "claims")}
@@ -37,16 +40,18 @@ OUTPUT = STUDIES.output
 STATES, RUNS, CLUSTERS, KEEPING = STUDIES.states(), STUDIES.runs(), STUDIES.clusters(), STUDIES.keeping()
 DRAWINGS, DRAWN_TABLES = MEASURED["figures"], declared.tables_in(HERE / "workflow/figures")
 FIRST_TO_ASK = STUDIES.first_to_ask()
-TABLES, CLAIMS = (STUDIES.possible(declared.studies_in(HERE / f"workflow/{kind}")) for kind in ("tables", "claims"))
+TABLES, CLAIMS = (STUDIES.possible(products) for products in DECLARED.values())
 STYLE = sorted({*(digest.SOURCES / "plotting").glob("*.*")} - {digest.SOURCES / "plotting/animation.py"})
 ANALYSIS = digest.digest(digest.ANALYSIS)
 FORMULAS = digest.digest(["granugas.analysis.*"])
 STORAGE = digest.digest(["granugas.storage.*"])
 EXPLORED = explored(STUDIES)
 
-if STUDIES.left_out and workflow.is_main_process:
-    for name, missing in STUDIES.left_out.items():
-        print(f"Left out: {name} needs {', '.join(missing)}, not in the configuration.", file=sys.stderr)
+if STUDIES.all_wanted and workflow.is_main_process:
+    LEFT_OUT = STUDIES.left_out | {f"{kind}/{name}": STUDIES.missing(needs) for kind in DECLARED for name, needs in DECLARED[kind].items()}
+    for name, missing in LEFT_OUT.items():
+        if missing:
+            print(f"Left out: {name} needs {', '.join(missing)}, not in the configuration.", file=sys.stderr)
 
 
 REMOVED = []
@@ -99,7 +104,7 @@ def datasets(names, experiments):
 
 def placed(file, name):
     """Section, part and label in the report of a figure or table with this name, as its file says."""
-    section, part, about = entry_of(HERE / file)
+    section, part, about = PLACES[file]
     return {"category": section, "subcategory": part, "labels": labelled(name, about)}
 
 
