@@ -82,9 +82,9 @@ def at_times(found: xr.Dataset, name: str, times: ArrayLike) -> Numbers:
     return interpolated(series(found["sampling_time"]), series(found[name]), times)
 
 
-def last_common_time(several: Iterable[xr.Dataset]) -> float:
-    """The time in s that all realizations of all of these reach, a hair before it."""
-    return float(min(np.nanmax(series(found["sampling_time"]), axis=1).min() for found in several)) * (1 - 1e-12)
+def last_common(several: Iterable[xr.Dataset], name: str = "sampling_time") -> float:
+    """The time in s, or what else grows, that all realizations of all of these reach, a hair before it."""
+    return float(min(np.nanmax(series(found[name]), axis=1).min() for found in several)) * (1 - 1e-12)
 
 
 def elastic_share(found: xr.Dataset, begin: int | None = None) -> Numbers:

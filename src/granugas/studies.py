@@ -101,7 +101,7 @@ class Studies:
 
     def missing(self, needs: tuple[str, ...]) -> tuple[str, ...]:
         """Those of the named studies that are not configured."""
-        return tuple(name for name in needs if name not in self.studies)
+        return _missing(needs, self.studies)
 
     def runs(self) -> dict[str, Run]:
         """Every run by its address; runs that studies share stand here once."""
@@ -172,8 +172,7 @@ def load(config: Mapping[str, Any], schema: Mapping[str, Any], figures: Mapping[
     animations = {name: _animation(f"animations.{name}", block, studies) for name, block in scripts.items()}
     figures = figures or {}
     overviews = {f"study_{name}": (name,) for name in studies}
-    left_out = {name: tuple(n for n in needs if n not in studies) for name, needs in figures.items()}
-    left_out = {name: missing for name, missing in left_out.items() if missing}
+    left_out = {name: missing for name, needs in figures.items() if (missing := _missing(needs, studies))}
     possible = {name: needs for name, needs in figures.items() if name not in left_out}
     everything = whole["figures"] == "all"
     if everything:
@@ -185,6 +184,10 @@ def load(config: Mapping[str, Any], schema: Mapping[str, Any], figures: Mapping[
     output = str(PurePath(whole["output"]))
     small = whole["small_experiments"]
     return Studies(output, studies, possible | overviews, wanted, left_out, everything, animations, small)
+
+
+def _missing(needs: Sequence[str], studies: Mapping[str, Study]) -> tuple[str, ...]:
+    return tuple(name for name in needs if name not in studies)
 
 
 def _animation(where: str, block: Mapping[str, Any], studies: Mapping[str, Study]) -> Animation:

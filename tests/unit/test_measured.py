@@ -12,7 +12,7 @@ from granugas.measured import (
     enough_runs,
     experiment,
     in_words,
-    last_common_time,
+    last_common,
     nearest,
     runs,
     series,
@@ -94,9 +94,9 @@ def test_energies_at_common_times(two_runs):
 
 
 def test_a_run_that_ends_first_ends_the_common_time(two_runs):
-    assert last_common_time([two_runs, two_runs.isel(realization=[1])]) == pytest.approx(4)
-    assert last_common_time([two_runs]) < 4
-    assert not np.isnan(at_times(two_runs, "kinetic_energy", [last_common_time([two_runs])])).any()
+    assert last_common([two_runs, two_runs.isel(realization=[1])]) == pytest.approx(4)
+    assert last_common([two_runs]) < 4
+    assert not np.isnan(at_times(two_runs, "kinetic_energy", [last_common([two_runs])])).any()
 
 
 def test_elastic_share_of_the_collisions(two_runs):

@@ -6,7 +6,7 @@ from granugas.analysis.comparison import interpolated, largest_factor, log_mean
 from granugas.analysis.statistics import jackknife, mean_and_error
 from granugas.analysis.theory import collisions_until, homogeneous_cooling
 from granugas.claims import at_most, claim, claims_in, value
-from granugas.measured import runs, side_by_side
+from granugas.measured import runs, series, side_by_side
 
 STUDIES = ("cluster1999_restitutions", "cluster1999_large", "tc1998_restitutions")
 EXPERIMENTS = ()
@@ -58,8 +58,8 @@ def energies(data, tau):
     """K of (realization, tau) at r = .8 of N = 784 and 79524 (nu = .25) and of N = 5740 (nu = .227)."""
     found = []
     for one in (small(data), large(data), of_the_other_paper(data)):
-        curves = one[["tau", "kinetic_energy"]].isel(time=slice(1, None)).transpose("realization", "time")
-        found.append(interpolated(curves["tau"].values, curves["kinetic_energy"].values, tau))
+        later = one.isel(time=slice(1, None))
+        found.append(interpolated(series(later["tau"]), series(later["kinetic_energy"]), tau))
     return found
 
 

@@ -12,7 +12,7 @@ from granugas.measured import (
     common,
     elastic_share,
     enough_runs,
-    last_common_time,
+    last_common,
     nearest,
     runs,
     series,
@@ -97,7 +97,7 @@ def small_times_the_same(data):
 def energy_independent_of_tc(data):
     """The energy is almost independent of t_c for large times, as long as t_c < 1e-5 s."""
     found = [of_time(data, t_c) for t_c in CONTACT_TIMES[2:]]
-    times = np.geomspace(1, last_common_time(found), 40)
+    times = np.geomspace(1, last_common(found), 40)
     values = np.stack([at_times(one, "kinetic_energy", times) for one in found], axis=1)
 
     def apart(v):

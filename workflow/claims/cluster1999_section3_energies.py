@@ -6,7 +6,7 @@ from granugas.analysis.comparison import interpolated, log_mean, onset
 from granugas.analysis.statistics import jackknife, mean_and_error
 from granugas.analysis.theory import energy_after_collisions, homogeneous_cooling
 from granugas.claims import at_least, at_most, claim, claims_in, value
-from granugas.measured import at_times, common, enough_runs, last_common_time, nearest, runs, series, side_by_side
+from granugas.measured import at_times, common, enough_runs, last_common, nearest, runs, series, side_by_side
 
 STUDIES = ("cluster1999_restitutions", "cluster1999_large")
 EXPERIMENTS = ()
@@ -27,6 +27,11 @@ def of(data, restitution):
 def above_eq_1(found, restitution):
     """ln of K by Eq. 1 at the same time, (realization, sample)."""
     return np.log(series(found["kinetic_energy"]) / homogeneous_cooling(series(found["tau"]), restitution))
+
+
+def farthest_from_eq_1(data, restitution):
+    """The largest factor between K and Eq. 1 over the whole run, and its error."""
+    return jackknife(lambda v: np.exp(np.abs(v.mean(axis=0)).max()), above_eq_1(of(data, restitution), restitution))
 
 
 def slope_by_eq_3(found, restitution):
@@ -86,7 +91,7 @@ def until_a_thousand(data):
 )
 def nearly_elastic(data):
     """At r = .99 the energy is described well by homogeneous cooling."""
-    return jackknife(lambda v: np.exp(np.abs(v.mean(axis=0)).max()), above_eq_1(of(data, 0.99), 0.99))
+    return farthest_from_eq_1(data, 0.99)
 
 
 @claim(
@@ -98,7 +103,7 @@ def nearly_elastic(data):
 )
 def nearly_elastic_too(data):
     """At r = .97 as well."""
-    return jackknife(lambda v: np.exp(np.abs(v.mean(axis=0)).max()), above_eq_1(of(data, 0.97), 0.97))
+    return farthest_from_eq_1(data, 0.97)
 
 
 @claim(
@@ -182,9 +187,8 @@ def earlier_with_dissipation(data):
     grids, values = [], []
     for r in RESTITUTIONS[1:]:
         found = of(data, r)
-        tau = series(found["tau"])
-        grids.append(np.geomspace(1, np.nanmax(tau, axis=1).min() * (1 - 1e-12), 600))
-        energy = interpolated(tau, series(found["kinetic_energy"]), grids[-1])
+        grids.append(np.geomspace(1, last_common([found], "tau"), 600))
+        energy = interpolated(series(found["tau"]), series(found["kinetic_energy"]), grids[-1])
         values.append(np.log(energy / homogeneous_cooling(grids[-1], r)))
 
     def smallest_ratio(v):
@@ -204,7 +208,7 @@ def earlier_with_dissipation(data):
 def slower_in_the_end(data):
     """The system dissipates energy slower for small r and rather large times."""
     found = [of(data, r) for r in (0.97, 0.6, 0.2)]
-    end = last_common_time(found)
+    end = last_common(found)
     slopes = [np.diff(np.log(at_times(one, "kinetic_energy", [end / 10, end])), axis=1)[:, 0] for one in found]
     return jackknife(lambda v: v.mean(axis=0)[1:] / v.mean(axis=0)[0], np.stack(slopes, axis=1))
 
@@ -249,8 +253,7 @@ def smaller_in_large_systems(data):
 )
 def homogeneous_above(data):
     """For r > r_c the system remains in the homogeneous cooling state."""
-    found = [jackknife(lambda v: np.exp(np.abs(v.mean(axis=0)).max()), above_eq_1(of(data, r), r)) for r in RESTITUTIONS[2:5]]
-    return side_by_side(found)
+    return side_by_side([farthest_from_eq_1(data, r) for r in RESTITUTIONS[2:5]])
 
 
 CLAIMS = claims_in(globals())

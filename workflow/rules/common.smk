@@ -48,8 +48,8 @@ STORAGE = digest.digest(["granugas.storage.*"])
 EXPLORED = explored(STUDIES)
 
 if STUDIES.all_wanted and workflow.is_main_process:
-    LEFT_OUT = STUDIES.left_out | {f"{kind}/{name}": STUDIES.missing(needs) for kind in DECLARED for name, needs in DECLARED[kind].items()}
-    for name, missing in LEFT_OUT.items():
+    OTHERS = {f"{kind}/{name}": STUDIES.missing(needs) for kind, files in DECLARED.items() for name, needs in files.items()}
+    for name, missing in (STUDIES.left_out | OTHERS).items():
         if missing:
             print(f"Left out: {name} needs {', '.join(missing)}, not in the configuration.", file=sys.stderr)
 
